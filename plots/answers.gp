@@ -26,9 +26,9 @@ if (study eq 'profile') {
 }
 if (study eq 'limits') { answer = 'Largest load that is lifted slowly'; quantity = 'load'; si = 'kg'; number[1] = 'max_load_kg'; counted = 'lift a load' }
 if (study eq 'cycle') {
-  answer = 'Range of the opening'; quantity = 'opening'; si = 'm'
-  number[1] = 'opening_max_m'; number_name[1] = 'largest'
-  number[2] = 'opening_min_m'; number_name[2] = 'smallest'
+  quantity = has('opening_max_m') ? 'opening' : 'stroke'; answer = 'Range of the '.quantity; si = 'm'
+  number[1] = quantity.'_max_m'; number_name[1] = 'largest'
+  number[2] = quantity.'_min_m'; number_name[2] = 'smallest'
 }
 found = exists('count_'.number[1]) ? of('count_', number[1]) : 0
 answers = sprintf('%d of %d runs %s', found, cases, counted)

@@ -1,5 +1,6 @@
-#picture loops.svg one motion charge_C =energy_per_cycle_J
-# One cycle: voltage against charge, electric force against opening.
+#picture loops.svg one motion opening_m|contraction =energy_per_cycle_J
+# One cycle: voltage against charge, electric force against the opening; of one ribbon against its stroke, or its
+# contraction where its end is held.
 title = 'A cycle: the area of the left loop is what the source gives'
 right = 0.97
 load 'style.gp'
@@ -13,7 +14,8 @@ load 'loop.gp'
 unset label
 set lmargin at screen 0.63
 set rmargin at screen right
-x_column = 'opening_m'; x_si = 'm'; x_name = 'opening'
+x_column = has('opening_m') ? 'opening_m' : highest_stroke_m > lowest_stroke_m ? 'stroke_m' : 'contraction'
+x_si = x_column eq 'contraction' ? '%' : 'm'; x_name = x_column eq 'contraction' ? x_column : x_column[1:strlen(x_column) - 2]
 y_column = 'force_N'; y_si = 'N'; y_name = 'electric force'
 load 'loop.gp'
 unset multiplot

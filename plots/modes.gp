@@ -37,8 +37,8 @@ do for [k=1:|frequency|] {
   first = (k - 1) % across == 0
   set format x (lowest ? '%g' : '')
   set format y (first ? '%g' : '')
-  if (lowest) { set xlabel label(hanging ? 'y' : 'x', length_unit) } else { unset xlabel }
-  if (first) { set ylabel label(hanging ? '−x' : 'y', length_unit) offset 0.5 } else { unset ylabel }
+  if (lowest) { set xlabel label(lying ? 'y' : 'x', length_unit) } else { unset xlabel }
+  if (first) { set ylabel label(lying ? '−x' : 'y', length_unit) offset 0.5 } else { unset ylabel }
   plot for [r=1:(at_rest ? ribbons : 0)] 'shapes.dat' index 0 using (ribbon_x(r)*length):(ribbon_y(r)*length) \
          with lines lw 1.5 lc rgb '#999999' notitle, \
        for [r=1:ribbons] 'shapes.dat' index k-1+at_rest using (ribbon_x(r)*length):(ribbon_y(r)*length) \

@@ -40,7 +40,7 @@ load_node = !has_platform || half ? nodes - 1 : nodes/2 - 1
 array middle[members] # of the platform, or the right end
 array place_x[members]
 _middle(n, x) = n % nodes == load_node ? (middle[member_of(n)] = x + (has_platform ? platform_length/2 : 0)) : 0
-stats 'shapes.dat' index 0 using (node(0) < 0 ? 0 : _middle(node(0), column(x_of(ribbons))), 1) nooutput
+stats 'shapes.dat' index 0 using (node(0) < 0 ? 0 : _middle(node(0), ribbon_x(ribbons)), 1) nooutput
 array from_x[bodies + 1]
 array to_x[bodies + 1]
 array holds[bodies] # does a member hang on it?
@@ -59,10 +59,11 @@ do for [k=1:members] {
   }
 }
 _x(side, n, x) = n < 0 ? NaN : place_x[member_of(n)] + (side == 1 ? middle[member_of(n)] - x : x - middle[member_of(n)])
-stats 'shapes.dat' using (_x(0, node(0), $5)) name 'near' nooutput
-stats 'shapes.dat' using (_x(half, node(0), $5)) name 'far' nooutput
-left_most = min(near_min, far_min)
-right_most = max(near_max, far_max)
+stats 'shapes.dat' using (_x(0, node(0), ribbon_x(1))) name 'near' nooutput
+stats 'shapes.dat' using (_x(half, node(0), ribbon_x(ribbons))) name 'far' nooutput
+beside = hanging ? 0.5*(box_top - box_bottom) : 0 # of films that are slender
+left_most = min(near_min, far_min) - beside
+right_most = max(near_max, far_max) + beside
 wide = right_most - left_most
 high = max(box_top - box_bottom, wide/100)
 flat = high < 0.3*wide
@@ -110,8 +111,8 @@ do for [k=1:shown_frames + hold] {
     if (bodies <= 12 && !holds[b]) { set label b + 10 word(bodies_named, b) at (from_x[b + 1] + to_x[b + 1])/2*length,y-thick center offset 0,-0.6 font ',11' tc rgb '#37434d' front }
   }
   plot for [side=0:half] 'shapes.dat' index i-1 using (has_platform ? _x(side, node(0), $5)*length : NaN):($6*length):($8*length) with filledcurves fc rgb '#e2f1fa' notitle, \
-       for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (_x(side, node(0), column(x_of(r)))*length):(column(x_of(r) + 1)*length) \
+       for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (_x(side, node(0), ribbon_x(r))*length):(ribbon_y(r)*length) \
          with lines lw 2 lc rgb '#37434d' notitle, \
-       for [side=0:half] 'shapes.dat' index i-1 using (node(0) % nodes == 0 || (!half && node(0) % nodes == nodes - 1) ? _x(side, node(0), $7)*length : NaN):($8*length) \
+       for [side=0:half] 'shapes.dat' index i-1 using (node(0) % nodes == 0 || (!half && node(0) % nodes == nodes - 1) ? _x(side, node(0), ribbon_x(ribbons))*length : NaN):(ribbon_y(ribbons)*length) \
          with points pt 5 ps 1 lc rgb '#37434d' notitle
 }

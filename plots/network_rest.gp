@@ -1,7 +1,9 @@
 #picture stroke.svg one branch :bodies +drive.voltage
-# Heights of the bodies of a network at rest, and openings of its members, against the voltage: stable states only.
+# Heights of the bodies of a network at rest, and openings of its members, or where these have none their closed
+# lengths, against the voltage: stable states only.
 load 'functions.gp'
-title = 'Heights of the bodies and openings of the members at rest'
+load 'members_shown.gp'
+title = 'Heights of the bodies and '.shown.'s of the members at rest'
 remark = 'stable states against the voltage of the top level'
 letters = 16
 load 'style.gp'
@@ -17,9 +19,8 @@ titles = escaped(bodies_named)
 quantity = 'height'
 load 'stable_points.gp'
 load 'lower_panel.gp'
-list = ''
-do for [name in members_named] { list = list.name.'.opening_m ' }
+list = of_members
 titles = escaped(members_named)
-quantity = 'opening'
+quantity = shown
 load 'stable_points.gp'
 unset multiplot

@@ -2,5 +2,5 @@
 box_size = max(max(abs(box_left), abs(box_right)), box_top - box_bottom)
 length = scale(box_size, 'm')
 length_unit = unit(box_size, 'm')
-set xlabel label(hanging ? 'y' : 'x', length_unit)
-set ylabel label(hanging ? '−x' : 'y', length_unit) offset 0.5
+set xlabel label(lying ? 'y' : 'x', length_unit)
+set ylabel label(lying ? '−x' : 'y', length_unit) offset 0.5

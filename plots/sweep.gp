@@ -1,11 +1,11 @@
-#picture zip_time.svg many actuate zip_time_s :axis
+#picture zip_time.svg many actuate zip_time_s !strain :axis
 #picture strokes.svg many stationary stroke_m :axis
 #picture voltages.svg many equilibrium pull_in_voltage_V|release_voltage_V :axis
 #picture strains.svg many actuate|equilibrium strain !pull_in_voltage_V :axis
 #picture frequencies.svg many modes frequency_1_Hz :axis
 #picture factors.svg many profile scale_factor|paper_factor :axis
 #picture loads.svg many limits max_load_kg :axis
-#picture openings.svg many cycle opening_max_m|opening_min_m :axis
+#picture openings.svg many cycle opening_max_m|opening_min_m|stroke_max_m|stroke_min_m :axis
 # One or two numbers of the summary, number[1] and number[2], against the list key that varies fastest. Of several curves
 # shades and dashes tell the curve, full and open marks the number.
 load 'answers.gp'

@@ -15,6 +15,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import validity_comb  # noqa: E402
+import validity_pouch  # noqa: E402
 
 HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(HOME, "docs", "validity.md")
@@ -542,13 +543,14 @@ def retention_curves(runs):
     return curves
 def small_beams(runs):
     """Published finite elements of beams over a wide electrode, beside ours without and with the edges."""
-    def pull_in(end, length, width, thick, gap, edges):
+    def pull_in(end, length, width, thick, gap, edges, tension="0 N"):
         keys = {"actuator.right_end": end, "ribbon.length": length, "ribbon.width": width, "ribbon.thickness": thick, "electro.gap_offset": gap}
-        return runs.summary("small-beam", {**keys, "electro.edges": edges})["pull_in_voltage_V"]
+        return runs.summary("small-beam", {**keys, "ribbon.tension": tension, "electro.edges": edges})["pull_in_voltage_V"]
 
     thick, long = ("20 um", "2 um", "4 um"), ("300 um", "50 um", "3 um", "2.5 um")
     beams = [("100 × 20 × 2 µm, gap 4 µm, clamped at both ends, without stretching", "{:.0f} V", 992, lambda e: pull_in("guided", "50 um", *thick, e)),
              ("the same with stretching", "{:.0f} V", 1270, lambda e: pull_in("clamped", "100 um", *thick, e)),
+             ("the same with stretching and 100 MPa of tension", "{:.0f} V", 1408, lambda e: pull_in("clamped", "100 um", *thick, e, "4 mN")),
              ("300 × 50 × 3 µm, gap 2.5 µm: clamped at both ends over clamped at one", "{:.3g}", 6.75,
               lambda e: pull_in("clamped", *long, e) / pull_in("free", *long, e))]
     rows = []
@@ -678,6 +680,7 @@ def pictures(runs):
     draw("validity-bead", [
         panel("Beads of several volumes at each front, 8 g, 10 kV", "time / ms", "contraction / %", bead_contractions(runs),
               "set yrange [60:101]\nset arrow 2 from graph 0, first 99 to graph 1, first 99 nohead dt 2 lc rgb '#404040'\n", points=False)])
+    draw("validity-pouch", [validity_pouch.panel(runs, INK)])
     draw("validity-comb", list(validity_comb.Comparison(runs).panels(panel)))
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),

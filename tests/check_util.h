@@ -355,8 +355,8 @@ static inline double largest_in(const ZpTable *table, const char *column) {
 static inline double largest_energy_in(const ZpTable *series) {
   double most = 0;
   for (size_t r = 0; r < series->rows; r++)
-    most = fmax(most, fabs(zp_table_get(series, r, "gravity_energy_J")) +
-                          fabs(zp_table_get(series, r, "electric_work_J")));
+    most = fmax(most,
+                fabs(zp_table_get(series, r, "gravity_energy_J")) + fabs(zp_table_get(series, r, "electric_work_J")));
   return most;
 }
 

@@ -156,7 +156,7 @@ TEST(test_film_is_mirrored) {
   ZpShapes *film = zp_shapes_create(1, 3, 6);
   for (size_t k = 0; k < 2; k++)
     zp_shapes_offer(film, &(ZpShape){(double)k, 5, k, x, y, gap, force, field, stress});
-  ZpShapes *both = zp_shapes_mirrored(film);
+  ZpShapes *both = zp_shapes_mirrored(film, 1);
   ck_assert_uint_eq(zp_shapes_ribbons(both), 2);
   ck_assert_uint_eq(zp_shapes_frames(both), 2);
   const ZpShape last = zp_shapes_get(both, 1);

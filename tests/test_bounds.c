@@ -299,12 +299,12 @@ static void make_kind(ZpActuatorDef *def, const char *key, double value) {
       (strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_POUCH))
     def->actuator.kind = ZP_KIND_POUCH, def->liquid.lateral_flow = false;
   if (strcmp(key, "pouch.electrode_length") == 0) def->ribbon.length = fmin(2 * value, 10);
-  if (strcmp(key, "ribbon.tension") == 0)
-    def->actuator.kind = ZP_KIND_FLANGE, def->actuator.right_end = ZP_END_CLAMPED;
+  if (strcmp(key, "ribbon.tension") == 0) def->actuator.kind = ZP_KIND_FLANGE, def->actuator.right_end = ZP_END_CLAMPED;
 }
 
-/* Of layers that creep: the other key of each. */
-static void make_creep(ZpActuatorDef *def, const char *key, double value) {
+/* Keys that come in pairs: of layers that creep, and of a bleeder. */
+static void make_other(ZpActuatorDef *def, const char *key, double value) {
+  if (strcmp(key, "source.bleeder_voltage") == 0) def->source.bleeder = 1e9;
   if (strcmp(key, "ribbon.relaxation_modulus") == 0 && value > 0) def->ribbon.relaxation_time = 1;
   if (strcmp(key, "ribbon.relaxation_time") == 0) def->ribbon.relaxation_modulus = 1e9;
   if (strcmp(key, "insulator.relaxation_modulus") == 0 && value > 0) def->insulator.relaxation_time = 1;
@@ -316,8 +316,7 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   const bool of_member = strncmp(key, "member_", 7) == 0;
   key = make_members(def, key);
   make_kind(def, key, value);
-  make_creep(def, key, value);
-  if (strcmp(key, "source.bleeder_voltage") == 0) def->source.bleeder = 1e9;
+  make_other(def, key, value);
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
   bool unilateral = strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_UNILATERAL;

@@ -84,6 +84,19 @@ TEST(curvature_counts_as_it_stretches_the_tape) {
   ck_assert_double_lt(zp_rod_point(one, 5).share[0], 0);
 }
 
+/* Each strip of a pair has the branches of its own layers: those of the lower one are those that the upper one has
+ * where it is as that. */
+TEST(each_strip_has_its_branches) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"insulator.young_modulus", 1e9}, {"insulator.relaxation_modulus", 2e9},
+                          {"insulator.relaxation_time", 5e-3}, {"lower.insulator.thickness", 60e-6}),
+                as_lower = def;
+  as_lower.insulator.thickness = 60e-6;
+  const ZpMaxwell *branch = model_of(&def)->branch, *expected = model_of(&as_lower)->branch;
+  for (int k = 0; k < ZP_BRANCHES; k++)
+    ck_assert_mem_eq(&branch[ZP_BRANCHES + k], &expected[k], sizeof *branch);
+  ck_assert_double_gt(branch[1].EI, 2 * branch[ZP_BRANCHES + 1].EI);
+}
+
 /* Work is stored or heat at any step, and all heat is positive. */
 TEST(work_of_a_branch_is_stored_or_heat) {
   ZpLayer layer = {130e-6, 1e9, 0.3, 0};

@@ -2,6 +2,8 @@
  * problem u'''' = beta / (eta + x^n - u)^2, and what any device must obey. */
 #include "limit_util.h"
 
+#include "actuator/resolution.h"
+
 static const double L = 0.1, delta = 0.2e-3, width = 12.7e-3, thick = 1e-3, eps0 = 8.8541878128e-12;
 
 /* Voltage at which beta = eps0 w U^2 L^4 / (2 EI delta^3) is 1. */
@@ -194,6 +196,27 @@ TEST(closed_ribbon_lies_on_the_electrode) {
   ck_below(off, 1e-6);
   ck_below(strain, 9e-7);
   zp_rest_close(&rest);
+}
+
+/* Length of the front of a strip that zips along the electrode, of d = eta delta of vacuum: the fourth root of twice EI
+ * k / d over the root of k / d^2, k = eps0 w U^2 / 2. Electrodes that touch nowhere have no front. */
+TEST(length_of_the_front) {
+  const double d = 0.05 * delta;
+  ZpActuatorDef zips = curved_def(2, 0.05, 1, 61), apart = zips;
+  apart.electro.gap_offset = 1e-3;
+  const double U = zips.drive.voltage, k = 0.5 * eps0 * width * U * U, EI = 200e9 * width * thick * thick * thick / 12;
+  ck_near(zp_front_length(model_of(&zips), U), sqrt(sqrt(2 * EI * k / d)) / sqrt(k / (d * d)), 1e-12);
+  ck_assert(isinf(zp_front_length(model_of(&apart), U)));
+}
+
+/* Both tapes yield where they touch, as those of two ribbons: layers so soft that they, and not what attracts, say how
+ * stiff the contact is. */
+TEST(tapes_of_strip_and_electrode_yield) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_CURVED}, {"insulator.young_modulus", 1e5},
+                          {"lower.insulator.thickness", 60e-6}, {"lower.insulator.young_modulus", 2e5});
+  const ZpContactParams *faces = &model_of(&def)->faces;
+  const double layers = def.insulator.thickness / 1e5 + 60e-6 / 2e5;
+  ck_near(faces->push, def.ribbon.width / layers * faces->depth / 3, 1e-12);
 }
 
 /* -- motion ------------------------------------------------------------------------------------------ */

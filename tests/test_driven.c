@@ -276,6 +276,28 @@ TESTS(forces_by_voltage, 0, 2) {
   ck_assert_mem_eq(all, all + n, n * sizeof *all);
 }
 
+/* At rest, of joints that turn by half a radian, where moments and turns are no longer proportional. */
+TEST(forces_by_voltage_of_large_turns) {
+  const ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 11}, {"segment_1.curvature_per_volt_squared", 0.1});
+  const ZpModel *model = model_of(&def);
+  ZpRest *rest = rest_of(&def);
+  ck_assert(zp_rest_hang(rest, 9));
+  ZpEval *eval = &rest->statics.member->eval;
+  const size_t n = zp_coordinates(model);
+  double *F = memory_of(3 * n * sizeof *F), off = 0;
+  ZpSpan span = zp_statics_span(&rest->statics, 0);
+  ZpByVoltage by = {.force = F, .charge = memory_of(n * sizeof *F)};
+  zp_system_force(model, &span, eval, F + n);
+  zp_system_by_voltage(model, &span, eval, &by);
+  for (int side = 0; side < 2; side++) {
+    span.U0 = span.U1 = side ? 9 - 1e-4 : 9 + 1e-4;
+    zp_system_force(model, &span, eval, F + (size_t)(side + 1) * n);
+  }
+  for (size_t k = 0; k < n; k++)
+    off = fmax(off, fabs((F[n + k] - F[2 * n + k]) / 2e-4 - F[k]));
+  ck_below(off / largest_of(F, n), 6e-11); /* 2.1e-11 measured */
+}
+
 /* Of results by the keys of a segment, against differences of studies. */
 TESTS(results_by_keys, 0, 5) {
   static const struct {

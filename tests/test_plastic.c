@@ -413,6 +413,27 @@ TEST(natural_curvature_is_no_strain) {
   ck_below(zp_result_get(result, "max_stress_Pa"), 5e-3); /* 5.9e-4 measured */
 }
 
+/* Moments of a strip that has yielded are not proportional to its stiffness: its stroke by keys, against differences.
+ */
+TESTS(stroke_beyond_yield_by_keys, 0, 2) {
+  static const char *const keys[] = {"ribbon.young_modulus", "ribbon.width"};
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+                          {"ribbon.length", 0.03}, {"load.mass", 12e-3}, {"ribbon.plasticity", true},
+                          {"ribbon.yield_stress", 250e6}, {"ribbon.hardening_modulus", 20e9}, {"mesh.nodes", 21});
+  const int key = zp_key_find(keys[_i]);
+  const double value = zp_def_get(&def, key), by = 1e-5 * value;
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", keys[_i]);
+  ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  const double slope = slope_in(result, "stroke_m", keys[_i]);
+  double stroke[2];
+  def.sensitivity.by[0] = 0;
+  for (int k = 0; k < 2; k++) {
+    ck_ok(zp_def_set(&def, key, value + (k ? -by : by), &err));
+    stroke[k] = answered_value(ZP_STUDY_STATIONARY, &def, "stroke_m");
+  }
+  ck_near(slope, (stroke[0] - stroke[1]) / (2 * by), 7e-9); /* 2.4e-9 measured */
+}
+
 TEST(what_it_lacks_is_said) {
   static const struct {
     ZpStudy study;
@@ -536,6 +557,17 @@ TEST(hanging_strip_is_pulled_beyond_its_yield) {
   double strain = 300e6 / E + 50e6 / 20e9;
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   ck_near(zp_table_get(result->series, result->series->rows - 1, "x_m") / def.ribbon.length - 1, strain, 1e-12);
+}
+
+/* What is left of a strip that was compressed is shorter. */
+TEST(compressed_strip_is_left_shorter) {
+  ZpActuatorDef def = hanging(100e6);
+  const ZpRodParams *rod = &model_of(&def)->rod;
+  const size_t count = zp_rod_plastic_count(rod);
+  double *strain = memory_of(count * sizeof *strain);
+  for (size_t i = 0; i < count; i++)
+    strain[i] = -1e-3;
+  ck_near(zp_rod_plastic_elongation(rod, strain), -1e-3, 1e-12);
 }
 
 /* Without its load it keeps what is plastic; what it springs back is elastic. */

@@ -3,6 +3,7 @@
 #include "network_util.h"
 
 #include "math/elementary.h"
+#include "run/run.h"
 
 static const double eps0 = ZP_EPS0;
 
@@ -73,6 +74,14 @@ TESTS(pull_in_before_a_back_electrode, 0, 2) {
           4e-5); /* 1.6e-5 measured */
 }
 
+/* Both electrodes are in parallel. */
+TEST(capacitance_between_electrodes) {
+  ZpActuatorDef def =
+      DEF(GIVEN, {"plate.back_gap", 7e-6}, {"insulator.thickness", 0.5e-6}, {"plate.count", 3}, {"drive.voltage", 0});
+  const double d = offset_of(&def), A = eps0 * area_of(&def);
+  ck_near(settled_value(&def, "capacitance"), A / (def.plate.gap + d) + A / (def.plate.back_gap + d), 1e-12);
+}
+
 /* The plate that a load draws away from the front rests on the stop behind it. */
 TEST(back_stop_holds) {
   ZpActuatorDef def =
@@ -82,18 +91,44 @@ TEST(back_stop_holds) {
           (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-14); /* 2e-16 measured */
 }
 
-/* Eq. (37.1): frequency without and with a voltage, which softens the spring. */
-TESTS(frequency, 0, 2) {
+/* There it moves by its keys as this says: one of two plates side by side, each with its own springs. */
+TESTS(place_on_the_back_stop_by_keys, 0, 5) {
+  static const char *const by[] = {"plate.gap", "plate.back_gap", "plate.back_stop_gap", "plate.stiffness",
+                                   "plate.stop_stiffness"};
+  static const double near[] = {5e-12, 5e-12, 5e-12, 2.2e-7, 2.2e-9}; /* a third of it measured */
+  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 0}, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 2e-6},
+                          {"load.force", 2e-3}, {"stack.parallel", 2});
+  const double k = def.plate.stiffness, s = def.plate.stop_stiffness, g0 = def.plate.gap, stop = 10e-6,
+               opening = (def.load.force / 2 + k * g0 + s * stop) / (k + s);
+  const double slopes[] = {1, s / (k + s), -s / (k + s), (g0 - opening) / (k + s), (stop - opening) / (k + s)};
+  strcpy(def.sensitivity.by, by[_i]);
+  ck_near(slope_in(answer_of(ZP_STUDY_STATIONARY, &def), "opening_m", by[_i]), slopes[_i], near[_i]);
+}
+
+/* On the stop in front its layer bears what the field pulls beyond the spring: p_c s^3 along its length, s the depth
+ * over that of the layer, p_c the spring's force at the electrode per length. */
+TESTS(layer_of_the_stop_bears_the_rest, 0, 2) {
+  ZpActuatorDef def = DEF(GIVEN, {"plate.stop_gap", 3e-6}, {"drive.voltage", 120}, {"plate.count", _i ? 3 : 1});
+  const double k = def.plate.stiffness, g0 = def.plate.gap, depth = zp_contact_range(0);
+  const ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  const double g = zp_table_get(result->series, result->series->rows - 1, "opening_m"),
+               pull = 0.5 * eps0 * area_of(&def) * def.drive.voltage * def.drive.voltage / (g * g),
+               s = (def.plate.stop_gap - g) / depth;
+  ck_near(s * s * s * k * g0, pull - k * (g0 - g), 3.8e-11); /* 1.3e-11 measured */
+}
+
+/* Eq. (37.1): frequency without and with a voltage, which softens the spring, and of the mass of the layers. */
+TESTS(frequency, 0, 3) {
   ZpActuatorDef def = DEF(GIVEN, {"plate.mass", 3e-9}, {"modes.voltage", 0});
-  double k = def.plate.stiffness, g = def.plate.gap;
+  double mass = def.plate.mass, k = def.plate.stiffness, g = def.plate.gap;
   if (_i == 1) {
     g = 4.5e-6;
     def.modes.voltage = sqrt(2 * k * (def.plate.gap - g) / (eps0 * area_of(&def))) * g;
     k -= 2 * k * (def.plate.gap - g) / g;
   }
+  if (_i == 2) def.plate.mass = NAN, mass = def.ribbon.density * def.ribbon.thickness * area_of(&def);
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
-  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi),
-          2e-10); /* 7.8e-11 measured */
+  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / mass) / (2 * zp_pi), 2e-10); /* 7.8e-11 measured */
 }
 
 /* -- films ----------------------------------------------------------------------------------------- */
@@ -180,6 +215,20 @@ TESTS(what_else_a_film_does, 0, 3) {
   ck_near(damping(&def, c), c, 7e-4); /* 3.5e-4 measured */
 }
 
+/* Jets and depth see twice the area over the length of the edges where the liquid leaves: the width of a strip, half of
+ * that of a square, the length of a plate that is closed at its long edges. */
+TEST(liquid_leaves_all_around) {
+  ZpFilmParams square = {.w = 2e-4}, strip = square, shut = square, law = square;
+  zp_film_modes(&law, true);
+  zp_film_plate_modes(&square, 2e-4, true);
+  zp_film_plate_modes(&strip, 2e4, true);
+  zp_film_plate_modes(&shut, 3e-4, false);
+  ck_near(square.breadth, 1e-4, 1e-12);
+  ck_near(strip.breadth, law.breadth, 1e-8);
+  ck_near(zp_film_depth(&strip, 5e-6), zp_film_depth(&law, 5e-6), 1e-8);
+  ck_near(shut.breadth, 3e-4, 1e-12);
+}
+
 /* Period of a plate in a liquid that hardly flows off: the mass of the film, eq. (37.5), and that beside and behind the
  * plate, eqs. (22.3) and (22.12). */
 TESTS(mass_of_a_film, 0, 2) {
@@ -236,6 +285,51 @@ TEST(fingers_share_spring_and_mass) {
   ZpResult *all = study_of(ZP_STUDY_ACTUATE, &def), *single = study_of(ZP_STUDY_ACTUATE, &one);
   ck_near(zp_result_get(all, "zip_time_s"), zp_result_get(single, "zip_time_s"), 1e-12);
   ck_near(zp_result_get(all, "source_energy_J"), 7 * zp_result_get(single, "source_energy_J"), 1e-12);
+}
+
+/* Forces and charge by the voltage, and charge by the place, over a step between two electrodes, against differences.
+ */
+TEST(step_by_voltage) {
+  ZpActuatorDef def = DEF(GIVEN, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 1e-6});
+  ZpSim *sim = sim_of(model_of(&def));
+  const ZpModel *model = sim->model;
+  const size_t n = zp_coordinates(model);
+  double *start = memory_of(n * sizeof *start), *end = memory_of(n * sizeof *end), *F = memory_of(3 * n * sizeof *F),
+         *charge = memory_of(n * sizeof *charge), Q[2];
+  memcpy(start, zp_state_q(model, sim->state), n * sizeof *start);
+  memcpy(end, start, n * sizeof *end);
+  const size_t place[] = {model->stride + zp_lower(&model->topology, 0), model->stride + zp_lower(&model->topology, 1)};
+  for (int k = 0; k < 2; k++)
+    start[place[k]] = -4e-6, end[place[k]] = -3.9e-6;
+  ZpSpan span = {.start = start, .end = end, .h = 1e-6, .U0 = 50, .U1 = 60, .share = 1};
+  zp_system_begin(model, &span, &sim->eval);
+  ZpByVoltage by = {.force = F, .charge = charge};
+  zp_system_force(model, &span, &sim->eval, F + n);
+  zp_system_by_voltage(model, &span, &sim->eval, &by);
+  for (int k = 0; k < 2; k++) {
+    ZpSpan there = span;
+    there.U1 += k ? -1e-2 : 1e-2;
+    zp_system_force(model, &there, &sim->eval, F + (size_t)(k + 1) * n);
+    Q[k] = zp_system_electric(model, &there, &sim->eval, ZP_SPAN_END, there.U1).charge;
+  }
+  ck_near(by.capacitance, (Q[0] - Q[1]) / 2e-2, 2.5e-13); /* 8.4e-14 measured */
+  for (int k = 0; k < 2; k++)
+    ck_near(F[place[k]], (F[n + place[k]] - F[2 * n + place[k]]) / 2e-2, 8e-13); /* 2.8e-13 measured */
+  for (int k = 0; k < 2; k++) {
+    end[place[0]] = end[place[1]] = -3.9e-6 + (k ? -1e-10 : 1e-10);
+    zp_system_force(model, &span, &sim->eval, F + n);
+    Q[k] = zp_system_electric(model, &span, &sim->eval, ZP_SPAN_END, span.U1).charge;
+  }
+  ck_near(charge[place[0]] + charge[place[1]], (Q[0] - Q[1]) / 2e-10, 2.4e-9); /* 8.2e-10 measured */
+}
+
+/* Between two electrodes both films are inside: no liquid is outside that would drag. */
+TESTS(liquid_outside_drags, 0, 2) {
+  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"plate.mass", 3e-9}, {"solver.end_time", 1e-3},
+                          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"insulator.thickness", 1e-7});
+  if (_i) def.plate.back_gap = 6e-6, def.plate.back_stop_gap = 1e-6;
+  const double lost = zp_result_get(answer_of(ZP_STUDY_ACTUATE, &def), "outer_drag_loss_J");
+  ck_assert_int_eq(lost > 0, _i == 0);
 }
 
 /* -- several --------------------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #include "check_util.h"
 
 #include "rest/rest.h"
+#include "run/run.h"
 
 enum { MOST = 60 }; /* equations */
 
@@ -146,4 +147,68 @@ TESTS(stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases)) {
   printf("%s: stiffness off by %.1e\n", c->name, worst);
   ck_below(worst, 5e-8); /* 1.4e-8 measured */
   zp_rest_close(&rest);
+}
+
+/* -- over a step ------------------------------------------------------------------------------------- */
+
+typedef struct Moving {
+  const char *name;
+  Setting setting[14];
+  size_t count;
+  double from, h; /* when the step begins, and how long it is, s */
+} Moving;
+
+#define CREEPING                                                                                                       \
+  {"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {                         \
+    "initial.state", ZP_INITIAL_STRAIGHT                                                                               \
+  }
+#define PLATE                                                                                                          \
+  {"actuator.kind", ZP_KIND_PLATE}, {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6}, {"plate.gap", 5e-6}, {    \
+    "drive.voltage", 40                                                                                                \
+  }
+
+static const Moving moving[] = {
+    {"strip and tape that creep",
+     SET(CREEPING, {"insulator.young_modulus", 1e9}, {"insulator.relaxation_modulus", 50e9},
+         {"insulator.relaxation_time", 1e-5}),
+     1e-4, 2e-5},
+    {"plate between electrodes", SET(PLATE), 1e-5, 1e-6},
+    {"film behind a plate", SET(PLATE, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"liquid.inertia", 0}), 1e-5, 1e-6},
+};
+
+/* Where a step turns little, its matrix is the derivative of its residual, too. */
+TESTS(tangent_is_the_derivative_of_the_residual, 0, LENGTH_OF(moving)) {
+  const Moving *c = &moving[_i];
+  ZpActuatorDef def = def_with(c->setting, c->count);
+  ZpSim *sim = sim_of(model_of(&def));
+  run_to(sim, c->from);
+  ZpDynamics *d = &sim->dynamics;
+  const ZpImplicitSystem *system = &d->system;
+  const size_t n = system->n;
+  double *y = memory_of(n * sizeof *y), *unit = memory_of(n * sizeof *unit), *column = memory_of(n * sizeof *column),
+         *up = memory_of(n * sizeof *up), *down = memory_of(n * sizeof *down), worst = 0, largest = 0;
+  zp_dynamics_begin(d, sim->states, c->from + c->h);
+  system->begin(d, d->q, d->v);
+  for (size_t i = 0; i < n; i++)
+    y[i] = d->q[i] + c->h * d->v[i];
+  for (int twice = 0; twice < 2; twice++)
+    system->residual(d, y, c->h, up);
+  system->tangent(d, &d->stepper.A);
+  for (size_t j = 0; j < n; j++) {
+    const double by = 1e-9 * (system->scale ? system->scale[j] : 1), at = y[j];
+    memset(unit, 0, n * sizeof *unit);
+    unit[j] = 1;
+    zp_arrow_multiply(&d->stepper.A, unit, column);
+    y[j] = at + by;
+    system->residual(d, y, c->h, up);
+    y[j] = at - by;
+    system->residual(d, y, c->h, down);
+    y[j] = at;
+    for (size_t i = 0; i < n; i++) {
+      worst = fmax(worst, fabs(column[i] - (down[i] - up[i]) / (2 * by)));
+      largest = fmax(largest, fabs(column[i]));
+    }
+  }
+  printf("%s: tangent off by %.1e\n", c->name, worst / largest);
+  ck_below(worst / largest, 1.8e-6); /* 5.9e-7 measured */
 }

@@ -175,6 +175,48 @@ TEST(list_over_levels) {
   ck_near(follow(&f, starts + 64e-3, 1), 9e3 * (1 - 1.0 / 9), 1e-12);
 }
 
+/* The list is the published one: its rises, and of the time until 10 % what a lag of such a rise does not take. */
+TEST(list_is_that_of_published_steps) {
+  FILE *file = fopen(ZP_SOURCE_DIR "/examples/data/converter-steps.csv", "r");
+  ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"drive.voltage", 1e3});
+  const ZpSupply supply = zp_supply_of(&def);
+  char line[200];
+  double level, rise, until; /* kV, ms */
+  size_t rows = 0;
+  ck_assert_ptr_nonnull(file);
+  while (fgets(line, sizeof line, file))
+    if (sscanf(line, "%lf,%lf,%lf", &level, &rise, &until) == 3) {
+      const double tau = rise / log(9), waits = until - tau * log(1 / 0.9);
+      ck_near(log(9) / zp_supply_lag_rate(&supply, 1e3 * level), 1e-3 * rise, 1e-12);
+      ck_assert_double_eq_tol(zp_supply_dead_time(&supply, 1e3 * level), 1e-3 * waits, 6e-5); /* digits of the list */
+      rows++;
+    }
+  fclose(file);
+  ck_assert_uint_eq(rows, supply.levels);
+}
+
+/* To a voltage below 0 as to that above it. */
+TEST(list_below_zero) {
+  ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"drive.voltage", 1e3});
+  const ZpSupply supply = zp_supply_of(&def);
+  ck_assert_double_eq(zp_supply_dead_time(&supply, -6.75e3), 18.9e-3);
+  ck_near(zp_supply_lag_rate(&supply, -6.75e3), log(9) / 64e-3, 1e-12);
+}
+
+/* While it waits its voltage falls if it does not stand still, whatever it is told. */
+TEST(rate_while_it_waits) {
+  static const double time[] = {0, 50e-3, 50e-3, 60e-3, 60e-3, 1}, voltage[] = {1e3, 1e3, 0, 0, 1e3, 2e3};
+  for (int k = 0; k < 2; k++) {
+    Follower f = waiting(&(ZpDriveTable){6, time, voltage});
+    if (k) f.supply.rate = INFINITY;
+    ZpCommand command = {&f.waveform, NULL};
+    follow(&f, 65e-3, 1e-3);
+    const double rate = zp_supply_rate(&f.supply, &command, f.t, f.at);
+    if (k) ck_assert_double_eq(rate, 0);
+    if (!k) ck_near(rate, -f.at.voltage / TAU, 1e-12);
+  }
+}
+
 /* What is given is taken instead of the list. */
 TEST(given_instead_of_the_list) {
   ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"source.dead_time", DEAD},

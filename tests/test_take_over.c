@@ -153,6 +153,20 @@ TEST(test_another_supply) {
   ck_near(zp_sim_get(last.sim, "voltage"), 5e3, 1e-12); /* 0 measured */
 }
 
+/* One that replaces the ideal one at 0 V has been off, and waits; one at another voltage runs. */
+TESTS(test_supply_with_a_dead_time, 0, 2) {
+  const ZpActuatorDef ideal = DEF({"mesh.nodes", 9}, {"drive.voltage", _i ? 500 : 0}),
+                      waits = DEF({"mesh.nodes", 9}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.dead_time", 5e-3});
+  ZpSim *first = sim_of(model_of(&ideal)), *next = sim_of(model_of(&waits));
+  run_to(first, 1e-3);
+  ck_ok(zp_sim_take_over(next, first, &err));
+  ck_ok(zp_sim_set_voltage(next, 1e3, &err));
+  run_to(next, 5.9e-3);
+  ck_assert_double_eq(zp_sim_get(next, "voltage"), _i ? 1e3 : 0);
+  run_to(next, 6.1e-3);
+  ck_assert_double_eq(zp_sim_get(next, "voltage"), 1e3);
+}
+
 /* A supply that is slewing continues from its present voltage after the load has changed. */
 TEST(test_slewing_supply_goes_on) {
   ZpActuatorDef def =

@@ -217,10 +217,10 @@ static void find_springs(ZpAssembly *const a[], const ZpModel *first, Shared *s,
   for (size_t k = 0; k < network->springs; k++) {
     spring[k] = (ZpClique){0, ends + 2 * k};
     for (size_t e = 0; e < 2; e++) {
-      const size_t body = network->spring[k].body[e], leader = network->body[body].leader;
+      const size_t body = network->spring[k].body[e];
       if (network->body[body].held) continue;
-      const size_t height = zp_height_at(first + leader, network->ends[leader].lower != body);
-      ends[2 * k + spring[k].count++] = (size_t)note(a[leader], leader, height, (int)s->count, s);
+      const ZpSight at = zp_sight_of_body(first, body);
+      ends[2 * k + spring[k].count++] = (size_t)note(a[at.member], at.member, at.coordinate, (int)s->count, s);
     }
   }
 }

@@ -946,13 +946,13 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
 }
 
 #ifndef ZP_WITHOUT_FIELD
-/* The cross-section of a ribbon over a counter electrode. Bare metals are followed down to a tenth of their gap, far
- * beyond pull-in. */
+/* The cross-section of a ribbon, or of a rigid plate, over a counter electrode. Bare metals are followed down to a tenth
+ * of their gap, far beyond pull-in. */
 static void put_over_plate(const ZpModel *model, ZpEdgeParams *params) {
   static const double tenth = 0.1;
   const ZpActuatorDef lower = zp_def_lower(&model->def);
-  double least = INFINITY;
-  for (size_t i = 0; i < model->nodes; i++)
+  double least = model->flat ? INFINITY : model->def.plate.gap;
+  for (size_t i = 0; model->flat && i < model->nodes; i++)
     least = fmin(least, model->plates.face[i]);
   params->plate = true;
   params->plate_t = lower.insulator.thickness;
@@ -978,7 +978,7 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
                          .t = def->insulator.thickness,
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity};
-  if (model->flat) put_over_plate(model, &params);
+  if (zp_def_has(def, ZP_DEVICE_COUNTER)) put_over_plate(model, &params);
   model->plates.edges = &model->edge_law;
   ZpStatus status = zp_edges_make(&params, largest_gap(model), &model->edge_law, err);
   if (status != ZP_OK || !model->has_bead) return status;

@@ -462,11 +462,68 @@ static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
     q[j] += shift;
 }
 
-/* The opening at which an actuator counts as closed, m: beyond the stop 1 % of the hanging one, or the depth of contact
- * if that is more. */
+static const double zp_still_open = 0.01; /* part of the way at which an actuator counts as closed */
+
+/* Stations whose mean gap tells whether the actuator is closed: both ends of a platform; else twice the free or guided
+ * end, the middle between two clamps, or, of a pouch, where nearly all of its electrodes lie behind. */
+typedef struct ZpLast {
+  size_t station[2];
+} ZpLast;
+
+static inline ZpLast zp_last_to_close(const ZpModel *model) {
+  static const double rounding = 1e-9;
+  const ZpJoint *end = &model->topology.platform;
+  double zipped = (1 - zp_still_open) * model->pouch.electrode / model->l;
+  size_t only = model->topology.along ? (size_t)ceil(zipped - rounding) : end->first / 2;
+  bool ends = !model->topology.along && end->kind != ZP_JOINT_CLAMP;
+  return ends ? (ZpLast){{end->first, end->last}} : (ZpLast){{only, only}};
+}
+
+/* Where one ribbon is widest open among the stations that have to close: the last; of a pouch any up to it, because its
+ * front may leave liquid behind. */
+static inline size_t zp_widest_station(const ZpModel *model, const double *y) {
+  size_t last = zp_last_to_close(model).station[0], widest = last;
+  for (size_t i = model->topology.along ? 1 : last; i < last; i++)
+    if (zp_plates_gap(&model->plates, y, i) > zp_plates_gap(&model->plates, y, widest)) widest = i;
+  return widest;
+}
+
+/* (heights of nodes, rates of them) => the gap there, m, and how fast it grows; of a pair its opening. NAN where
+ * nothing closes. */
+static inline double zp_last_gap(const ZpModel *model, const double *y) {
+  if (!model->flat) return zp_opening(&model->topology, y);
+  return zp_plates_gap(&model->plates, y, zp_widest_station(model, y));
+}
+
+static inline double zp_last_gap_rate(const ZpModel *model, const double *y, const double *v) {
+  if (!model->flat) return zp_opening(&model->topology, v);
+  return zp_parting(&model->topology, v, zp_widest_station(model, y));
+}
+
+/* How far its ends, or its faces, are apart, m: the opening of a pair; under a counter electrode the last gap; along a
+ * pouch, or of a ribbon without electrodes, how far the load hangs. (changes of all nodes) => its own. */
+static inline double zp_spread(const ZpModel *model, ZpNodes nodes) {
+  bool hangs = model->topology.along || !model->field;
+  return hangs ? zp_hangs_by(&model->topology, nodes) : zp_last_gap(model, nodes.y);
+}
+
+static inline double zp_spread_change(const ZpModel *model, ZpNodes changes) {
+  bool hangs = model->topology.along || !model->field;
+  return hangs ? zp_hangs_by(&model->topology, changes) : zp_last_gap_rate(model, changes.y, changes.y);
+}
+
+/* Faces nearer than this have closed, m: they touch, or their film is thinner than the liquid equivalent to the
+ * insulators. */
+static inline double zp_closed_film(const ZpModel *model) {
+  return model->has_film ? fmax(model->faces.range, model->plates.d) : model->faces.range;
+}
+
+/* The gap at which an actuator counts as closed, m: where the front of a pouch has come; of others beyond the stop 1 %
+ * of the hanging one, or the depth of contact if that is more. */
 static inline double zp_closed_opening(const ZpModel *model, double hanging) {
   const ZpContactParams *faces = &model->faces;
-  return faces->stop + fmax(0.01 * (hanging - faces->stop), faces->depth);
+  if (model->topology.along) return zp_closed_film(model);
+  return faces->stop + fmax(zp_still_open * (hanging - faces->stop), faces->depth);
 }
 
 /* How much of the way from its hanging opening to the stop, or to contact, an actuator has closed; and the change of
@@ -488,7 +545,7 @@ static inline double zp_part_capacitance(const ZpModel *model, double inverse_ga
 /* Where study isometric holds the load's end: the opening, or the length of a pouch at its strain, m. */
 static inline double zp_held_opening(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  if (model->pouch.w == 0) return def->isometric.separation;
+  if (model->pouch.w == 0 || zp_is_network(model)) return def->isometric.separation;
   return model->stroke_at / (double)model->in_series - def->isometric.strain * def->ribbon.length;
 }
 
@@ -516,6 +573,11 @@ static inline ZpForces zp_forces(const ZpModel *model, double *F) {
 /* Coordinate k of q; of k = 0 and 1 x and y of all nodes. */
 static inline double *zp_coordinate(const ZpModel *model, double *q, size_t k) {
   return q + k / 2 + k % 2 * model->stride;
+}
+
+/* [stride] of q those along which the load pulls. */
+static inline double *zp_pulled_of(const ZpModel *model, double *q) {
+  return zp_coordinate(model, q, zp_pulled(&model->topology, 0));
 }
 
 /* How many numbers x or y has, whole lanes, and both have. */

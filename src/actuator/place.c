@@ -34,11 +34,12 @@ typedef struct Path {
 } Path;
 
 /* The one that ends at the lower platform of the left or right half, or at the right end of the lower ribbon: from the
- * upper platform, or from a clip or clamp that is held. */
+ * upper platform, or from a clip that is held or a clamp. */
 static Path path_to_platform(const ZpTopology *t, const int *equation, bool right) {
   const size_t lower = t->ribbons - 1;
   size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
-  return equation[zp_x_of(clip)] < 0 ? (Path){clip + lower, platform + lower, false} : (Path){platform, clip, true};
+  const bool held = !zp_has_platform(t) || equation[zp_x_of(clip)] < 0;
+  return held ? (Path){clip + lower, platform + lower, false} : (Path){platform, clip, true};
 }
 
 enum { MOST_PATHS = 4 };
@@ -102,7 +103,7 @@ void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const doub
 
 void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
-  double *y = zp_forces(model, nodes).y, missed = y[zp_load_node(t)] - height;
+  double *y = zp_pulled_of(model, nodes), missed = y[zp_load_node(t)] - height;
   for (size_t i = t->platform.first; i <= t->platform.last && zp_half_elements(t) == 0; i++)
     y[zp_lower(t, i)] = height;
   for (size_t h = 0; h < zp_halves(t) && zp_half_elements(t) > 0; h++)
@@ -111,11 +112,12 @@ void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double 
 
 void zp_place_top(const ZpModel *model, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
-  double *y = zp_forces(model, nodes).y, rise = height - y[zp_top_node(t)];
+  double *y = zp_pulled_of(model, nodes), rise = height - y[zp_top_node(t)];
   for (size_t j = 0; j < zp_lanes(model); j++)
     y[j] += rise;
 }
 
 void zp_place_below(const ZpModel *above, const double *nodes_above, const ZpModel *model, double *nodes) {
-  zp_place_top(model, zp_nodes(above, nodes_above).y[zp_load_node(&above->topology)], nodes);
+  const ZpTopology *t = &above->topology;
+  zp_place_top(model, zp_rises(t) * zp_lifted(t, zp_nodes(above, nodes_above), zp_load_node(t)), nodes);
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "actuator/ties.h"
 #include "def/check.h"
 #include "electro/series.h"
 
@@ -114,10 +115,13 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
     size_t size = k < ZP_NODE_ARRAYS ? all->nodes : all->stations;
     if (from[k]) memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]); /* without electrodes: none */
   }
-  double *y = all->array[1] + member * all->nodes;
-  const double sign = zp_network_sign(first->network, member), origin = zp_network_origin(first->network, member);
-  for (size_t j = 0; j < all->nodes; j++)
-    y[j] = origin + sign * y[j];
+  double *x = all->array[0] + member * all->nodes, *y = all->array[1] + member * all->nodes;
+  const ZpSight above = zp_sight_of_end(first, member, true);
+  for (size_t j = 0; j < all->nodes; j++) {
+    const double up = first[member].topology.along ? x[j] : y[j];
+    x[j] = first[member].topology.along ? y[j] : x[j];
+    y[j] = above.origin + above.sign * up;
+  }
 }
 
 void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member) {

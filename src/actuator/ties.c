@@ -2,16 +2,6 @@
 
 #include "base/pair.h"
 
-/* Joints that hold a member on a body that moves: a platform; a clamp or a hinge. */
-static const ZpJointWay linked = {.held = {{true, false}, {true, false}}},
-                        clamped = {.held = {{true, false}, {true, false}}, .unites = true};
-
-static const ZpJointWay *way_of(const ZpJoint *joint, bool hangs) {
-  if (hangs && joint->kind == ZP_JOINT_PLATFORM) return &linked;
-  if (hangs && (joint->kind == ZP_JOINT_CLAMP || joint->kind == ZP_JOINT_HINGE)) return &clamped;
-  return &zp_joint_way[joint->kind];
-}
-
 static void add(ZpTies *ties, ZpTie tie) {
   ties->tie[ties->count++] = tie;
 }
@@ -21,40 +11,54 @@ static double straight(const ZpModel *model, size_t k) {
   return k % 2 == 0 ? zp_straight_x(model, k / 2 / model->s) : 0;
 }
 
-/* A held coordinate stays where the straight actuator has it. The rest of a joint moves as its first station does. */
-static void add_joint(ZpTies *ties, const ZpJoint *joint, const ZpJointWay *way) {
+/* A held coordinate stays where the straight actuator has it, except the one along which a body moves that the member
+ * hangs on. The rest of a joint moves as its first station does. */
+static void add_joint(ZpTies *ties, const ZpJoint *joint, bool hangs) {
   const size_t member = ties->member;
   const ZpModel *model = ties->first + member;
+  const ZpJointWay *way = &zp_joint_way[joint->kind];
   const size_t s = model->s, first = 2 * s * joint->first, end = 2 * s * (joint->last + 1);
   for (size_t k = first; k < end; k++) {
     size_t ribbon = k / 2 % s, to = first + 2 * (way->unites ? 0 : ribbon) + k % 2;
     double x = straight(model, k);
-    if (way->held[ribbon][k % 2])
+    if (way->held[ribbon][k % 2] && !(hangs && k == zp_pulled(&model->topology, k / 2)))
       add(ties, (ZpTie){member, k, member, k, 0, x, 0});
     else if (to < k && !way->turns)
       add(ties, (ZpTie){member, k, member, to, 1, x - straight(model, to), 0});
   }
 }
 
+/* The coordinate of a member that is the height of the body at its upper or at its lower end. */
+static size_t height_at(const ZpModel *model, bool upper) {
+  const ZpTopology *t = &model->topology;
+  return zp_pulled(t, upper ? zp_top_node(t) : zp_load_node(t));
+}
+
+ZpSight zp_sight_of_end(const ZpModel *first, size_t member, bool upper) {
+  const ZpModel *model = first + member;
+  return (ZpSight){member, height_at(model, upper), zp_network_origin(first->network, member),
+                   zp_network_sign(first->network, member) * zp_rises(&model->topology)};
+}
+
+ZpSight zp_sight_of_body(const ZpModel *first, size_t body) {
+  const ZpNetwork *network = first->network;
+  const size_t leader = network->body[body].leader;
+  return zp_sight_of_end(first, leader, network->ends[leader].lower != body);
+}
+
 /* The height of a body that moves is that of its leader; other members see it in their own frames, eqs. (29.2) and
  * (31.3). */
 static void add_end(ZpTies *ties, bool upper) {
-  const size_t member = ties->member;
-  const ZpModel *first = ties->first;
-  const ZpNetwork *network = first->network;
-  const size_t body = upper ? network->ends[member].upper : network->ends[member].lower;
-  const size_t leader = network->body[body].leader;
-  if (network->body[body].held && !upper) { /* a joint holds the upper platform */
-    const size_t k = zp_height_at(first + member, false);
-    const double apart = network->body[body].y - zp_network_origin(network, member);
-    add(ties, (ZpTie){member, k, member, k, 0, zp_network_sign(network, member) * apart, 0});
-  }
-  if (network->body[body].held || leader == member) return;
-  const double sign = zp_network_sign(network, member),
-               apart = zp_network_origin(network, leader) - zp_network_origin(network, member);
-  add(ties, (ZpTie){member, zp_height_at(first + member, upper), leader,
-                    zp_height_at(first + leader, network->ends[leader].lower != body),
-                    sign * zp_network_sign(network, leader), sign * apart, 0});
+  const ZpNetwork *network = ties->first->network;
+  const ZpEnds *ends = &network->ends[ties->member];
+  const size_t body = upper ? ends->upper : ends->lower;
+  const ZpSight own = zp_sight_of_end(ties->first, ties->member, upper);
+  const size_t k = own.coordinate;
+  if (network->body[body].held && !upper) /* a joint holds the upper platform */
+    add(ties, (ZpTie){own.member, k, own.member, k, 0, zp_seen(&own, network->body[body].y), 0});
+  if (network->body[body].held || network->body[body].leader == own.member) return;
+  const ZpSight lead = zp_sight_of_body(ties->first, body);
+  add(ties, (ZpTie){own.member, k, lead.member, lead.coordinate, own.sign * lead.sign, zp_seen(&own, lead.origin), 0});
 }
 
 /* The rows of one member, as its joints and the bodies at its ends say. */
@@ -67,7 +71,7 @@ static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   if (joined) add_end(&ties, true);
   if (joined) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
-    add_joint(&ties, joint, way_of(joint, hangs));
+    add_joint(&ties, joint, hangs);
   return ties;
 }
 
@@ -93,19 +97,16 @@ ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member) {
 
 /* A body of a network, so far below the frame: in the frame of its leader. */
 static ZpTie tie_of_body(const ZpModel *first, size_t body) {
-  const ZpNetwork *network = first->network;
-  const size_t leader = network->body[body].leader;
-  const double sign = zp_network_sign(network, leader);
-  const size_t k = zp_height_at(first + leader, network->ends[leader].lower != body);
-  return (ZpTie){leader, k, leader, k, 0, -sign * zp_network_origin(network, leader), -sign};
+  const ZpSight lead = zp_sight_of_body(first, body);
+  return (ZpTie){lead.member, lead.coordinate, lead.member, lead.coordinate, 0, zp_seen(&lead, 0), -lead.sign};
 }
 
 ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
   if (first->network->plane) return (ZpTie){0};
   if (zp_is_network(first)) return tie_of_body(first, first->network->watched);
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
-  const double down = first->topology.along ? 1 : -1;
-  ZpTie tie = {member, zp_height_at(first + member, false), 0, zp_height_at(first, true), 1, 0, down};
+  const double down = -zp_rises(&first->topology);
+  ZpTie tie = {member, height_at(first + member, false), 0, height_at(first, true), 1, 0, down};
   resolve(first, members, &tie);
   return tie;
 }

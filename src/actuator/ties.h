@@ -28,10 +28,19 @@ typedef struct ZpTies {
  * lower one of antagonists, which is upside down. Alone, a member of a series is in the frame of its upper platform. */
 ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member);
 
-/* The coordinate of a member that is the height of the body at its upper or at its lower end. */
-static inline size_t zp_height_at(const ZpModel *model, bool upper) {
-  const ZpTopology *t = &model->topology;
-  return zp_pulled(t, upper ? zp_top_node(t) : zp_load_node(t));
+/* How a member sees the height of a body at one of its ends: `origin` plus `sign` times its coordinate, m. */
+typedef struct ZpSight {
+  size_t member, coordinate;
+  double origin, sign;
+} ZpSight;
+
+/* Of the body at its upper or at its lower end; of a body that moves, by its leader. */
+ZpSight zp_sight_of_end(const ZpModel *first, size_t member, bool upper);
+ZpSight zp_sight_of_body(const ZpModel *first, size_t body);
+
+/* The coordinate of a body at a height. */
+static inline double zp_seen(const ZpSight *sight, double height) {
+  return sight->sign * (height - sight->origin);
 }
 
 /* Where a row puts its coordinate if the free one is at `to`, m. */

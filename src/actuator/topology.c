@@ -5,8 +5,8 @@
 
 const ZpJointWay zp_joint_way[ZP_JOINT_KINDS] = {
     [ZP_JOINT_CLIP] = {.level = {true, true}, .unites = true},
-    [ZP_JOINT_CLAMP] = {.level = {true, true}, .held = {{true, true}, {true, true}}},
-    [ZP_JOINT_HINGE] = {.level = {true, false}, .held = {{true, true}, {true, true}}},
+    [ZP_JOINT_CLAMP] = {.level = {true, true}, .held = {{true, true}, {true, true}}, .unites = true},
+    [ZP_JOINT_HINGE] = {.level = {true, false}, .held = {{true, true}, {true, true}}, .unites = true},
     [ZP_JOINT_SEAM] = {.level = {true, true}, .held = {{false, true}, {false, true}}},
     [ZP_JOINT_GUIDE] = {.level = {true, true}},
     [ZP_JOINT_PLATFORM] = {.level = {true, true}, .held = {{true, true}, {true, false}}},

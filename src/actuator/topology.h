@@ -181,9 +181,14 @@ static inline size_t zp_pulled(const ZpTopology *t, size_t node) {
   return t->along ? zp_x_of(node) : zp_y_of(node);
 }
 
+/* 1 where that coordinate grows against the load, -1 where it grows with it. */
+static inline double zp_rises(const ZpTopology *t) {
+  return t->along ? -1 : 1;
+}
+
 /* How far a node is lifted against the load, m. */
 static inline double zp_lifted(const ZpTopology *t, ZpNodes n, size_t node) {
-  return t->along ? -n.x[node] : n.y[node];
+  return zp_rises(t) * (t->along ? n.x[node] : n.y[node]);
 }
 
 /* How far the lower platform or the right end is from the clip, the hinge, the left end or the upper one of two plates

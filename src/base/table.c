@@ -207,13 +207,13 @@ void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape) {
   if (frame) fill_frame(shapes, frame, shape);
 }
 
-static void mirror_frame(size_t nodes, const double *from, double *to) {
+static void mirror_frame(size_t axis, size_t nodes, const double *from, double *to) {
   memcpy(to, from, FRAME_HEAD * sizeof *to);
   from += FRAME_HEAD;
   to += FRAME_HEAD;
   for (size_t number = 0; number < OF_NODES; number++, from += nodes, to += 2 * nodes)
     for (size_t i = 0; i < nodes; i++) {
-      to[2 * i] = number == 1 ? 0 - from[i] : from[i]; /* the height */
+      to[2 * i] = number == axis ? 0 - from[i] : from[i];
       to[2 * i + 1] = from[i];
     }
   memcpy(to, from, OF_STATIONS * nodes * sizeof *to);
@@ -221,13 +221,13 @@ static void mirror_frame(size_t nodes, const double *from, double *to) {
     to[i] = 2 * from[i]; /* the gap */
 }
 
-ZpShapes *zp_shapes_mirrored(const ZpShapes *half) {
+ZpShapes *zp_shapes_mirrored(const ZpShapes *half, size_t axis) {
   ZpShapes *both = zp_shapes_create(2, half->nodes, half->capacity);
   if (!both) return NULL;
   double *value = both->value;
   const size_t size = both->frame_size;
   for (size_t k = 0; k < half->frames; k++)
-    mirror_frame(half->nodes, half->value + k * half->frame_size, value + k * size);
+    mirror_frame(axis, half->nodes, half->value + k * half->frame_size, value + k * size);
   *both = *half;
   both->ribbons = 2;
   both->frame_size = size;

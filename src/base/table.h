@@ -48,8 +48,8 @@ struct ZpShapes {
   size_t members;    /* of a series; otherwise 1 */
 };
 
-/* Shapes of one ribbon, with its gap to y = 0 => those of two, of which the upper one is its mirror image; NULL if
- * there is no memory. */
-ZpShapes *zp_shapes_mirrored(const ZpShapes *half);
+/* Shapes of one ribbon, with its gap to a line where x (axis 0) or y (1) is 0 => those of two, of which the first one
+ * is its mirror image; NULL if there is no memory. */
+ZpShapes *zp_shapes_mirrored(const ZpShapes *half, size_t axis);
 
 #endif

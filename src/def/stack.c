@@ -302,6 +302,7 @@ static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
   for (int member = 1, last = zp_def_members(def); member <= last; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
+    if (zp_def_network(def)) one.load.force = one.mount.tilt = 0; /* others may bear what pushes on it */
     ZpStatus status = zp_def_check(&one, &reason);
     if (status == ZP_OK && leads(def, member)) status = check_table(def, &one, &reason);
     if (status != ZP_OK) return zp_fail_member(def, member, status, &reason, err);

@@ -48,6 +48,8 @@ static const ZpRule rule[] = {
             "the grid of the field ends in the wedge at a clip; use plates"),
     ZP_RULE(NOT_MODELLED, ZP_HAS(RIGID), ZP_NOT(liquid.model, ZP_LIQUID_BEAD),
             "a film between plates is modelled up to their edges; use liquid.model submerged or none"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_UNSET(plate.back_gap),
+            "the field beyond the edges is that of a plate without an electrode behind it"),
 };
 
 const ZpDevice zp_device_plate = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_PAIR | ZP_DEVICE_PLATFORM |

@@ -40,8 +40,9 @@ static const ZpRule rule[] = {
             "the liquid beside the edges of a sealed pouch is not known"),
     ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_SET(load.change_mass), ZP_AT_MOST(pouch.count, 1),
                "an impact on several pouches in series sends a wave through them"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_NETWORK, ZP_NEVER,
-               "members pull across their ribbons; several pouches in series are pouch.count"),
+    ZP_RULE_IF(PHYSICS, ZP_SET(isometric.strain), ZP_NETWORK, ZP_NEVER, "a body is held at isometric.separation"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_NETWORK, ZP_AT_MOST(pouch.count, 1),
+               "each pouch of a network is a member"),
 };
 
 const ZpDevice zp_device_pouch = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_POUCH,

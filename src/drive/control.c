@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "def/device.h"
 #include "def/rule.h"
 #include "drive/meter.h"
 #include "drive/noise.h"
@@ -16,7 +17,8 @@ enum { PENDING = ZP_CONTROL_DELAY + 1 };
 static const double rounding = 1e-9; /* of a period: a time that is meant to be that of a sample */
 
 ZpControl zp_control_of(const ZpActuatorDef *def) {
-  bool falls = def->control.signal == ZP_CONTROL_OPENING || def->control.signal == ZP_CONTROL_STROKE;
+  const bool contracts = zp_def_has(def, ZP_DEVICE_POUCH); /* its stroke */
+  bool falls = def->control.signal == ZP_CONTROL_OPENING || (def->control.signal == ZP_CONTROL_STROKE && !contracts);
   return (ZpControl){.kind = def->control.kind,
                      .sense = falls ? 1 : -1,
                      .proportional = def->control.proportional,

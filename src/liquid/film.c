@@ -47,7 +47,7 @@ void zp_film_plate_modes(ZpFilmParams *p, double length, bool lateral_flow) {
   double lowest = p->share[0] / (zp_pi * zp_pi) * (1 - tanh_over(per_mode));
   p->kappa2[0] = p->share[0] / (lowest * b * b);
   p->kappa2[1] = p->share[1] / ((all - lowest) * b * b);
-  p->breadth = lateral_flow ? 2 * p->w * length / (p->w + length) : length;
+  p->breadth = lateral_flow ? p->w * length / (p->w + length) : length;
 }
 
 double zp_film_viscosity(const ZpFilmParams *p, double H) {

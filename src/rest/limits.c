@@ -401,6 +401,8 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   if (near && near->hangs) take(&f, near->start);
   limits->hangs = hang(&f, limits->start, &limits->hanging);
   if (!limits->hangs || !model->field || f.top == 0) return;
+  none_from(&f, 0, "a pouch zips steadily");
+  if (model->pouch.w > 0) return;
   none_from(&f, 0, "it hangs closed");
   if (limits->hanging <= zp_closed_opening(model, 0)) return;
   ZpQuasistaticEnd up = raise_voltage(&f);

@@ -37,6 +37,7 @@ typedef struct Member {
   ZpEval *eval;     /* of the state */
   const double *q;  /* its position, of all nodes */
   double U, factor; /* its voltage, V; its height over that of the first one, where both share a load */
+  double pressure;  /* of a pouch, Pa */
   ZpAssembly assembly;
   ZpVibration vibration;
   ZpArrowForm form;
@@ -95,7 +96,7 @@ static size_t reserve(Member *w, void *block) {
   size_t n = w->assembly.n, N = model->nodes;
   zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
   ZpBandForm band = w->form.block->band;
-  band.rank = 0;
+  band.rank = zp_pouch_rank(model);
   zp_band_reserve_form(&w->K, n, band, &arena);
   zp_arrow_reserve(&w->factors, &w->form, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
@@ -121,6 +122,7 @@ static ZpSpan span_of(const Member *w, double U) {
   ZpSpan span = zp_span_at(w->q);
   span.U0 = span.U1 = U;
   span.bead = w->bead;
+  span.pressure = w->pressure;
   return span;
 }
 
@@ -158,6 +160,14 @@ static void add_shape(Member *w, const double *x) {
   zp_assembly_changes(&w->assembly, shape, w->nodes + w->m++ * zp_coordinates(w->model));
 }
 
+/* That of `factors` with the bead held, which is the only term on top of a band but for that of a pouch. */
+static void take_stiffness(Member *w) {
+  const ZpBand *A = &w->factors.part->A;
+  memcpy(w->K.a, A->a, w->K.entries * sizeof *w->K.a);
+  memcpy(w->K.u, A->u, w->K.rank * w->K.n * sizeof *w->K.u);
+  memcpy(w->K.v, A->v, w->K.rank * w->K.n * sizeof *w->K.v);
+}
+
 /* All shapes, each of mass 1, and the exact stiffness at this state. */
 static void find_shapes(Member *w) {
   ZpVibration *v = &w->vibration;
@@ -167,7 +177,7 @@ static void find_shapes(Member *w) {
   span.tension = w->eval->edges.T;
   zp_arrow_clear(&w->factors);
   zp_system_add_stiffness(w->model, &span, &w->assembly, w->eval, &w->factors.part->A);
-  memcpy(w->K.a, w->factors.part->A.a, w->K.entries * sizeof *w->K.a);
+  take_stiffness(w);
   zp_arrow_factor(&w->factors);
   v->K = &w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
@@ -392,7 +402,6 @@ static void find_motions(Member *w) {
 
 /* Of members that share a load the first one has the stroke and the opening of all. */
 static void find_signal(const Work *all, Member *w, const ZpSetpointSignal *signal) {
-  const ZpTopology *t = &w->model->topology;
   const bool electric = signal->kind == ZP_CONTROL_CAPACITANCE;
   if (electric) find_by_voltage(w, 1, true, w->by_voltage); /* U dC / dq, at 1 V */
   for (size_t j = 0; j < w->m && (electric || !w->shares || w == all->member); j++) {
@@ -402,10 +411,9 @@ static void find_signal(const Work *all, Member *w, const ZpSetpointSignal *sign
       continue;
     }
     const ZpNodes moved = moved_by(w, j);
-    const double *y = moved.y;
     *by += signal->kind == ZP_CONTROL_STROKE    ? zp_stroke_change(w->model, moved)
-           : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
-                                                : -zp_opening(t, y) / signal->hanging;
+           : signal->kind == ZP_CONTROL_OPENING ? zp_spread_change(w->model, moved)
+                                                : -zp_spread_change(w->model, moved) / signal->hanging;
   }
 }
 
@@ -675,11 +683,12 @@ static bool open_member(Work *all, size_t which) {
                 .q = m->q,
                 .U = zp_statics_member_voltage(at, which),
                 .factor = zp_statics_factor(at, which),
+                .pressure = zp_statics_span(at, which).pressure,
                 .shares = at->shared,
                 .below = at->shared ? 0 : m->model->carried / m->model->parts};
   ZpAssembly *assembly = &w->assembly;
   if (!zp_assembly_create(&ties, 0, true, assembly)) return false;
-  assembly->block.band.rank = zp_bead_rank(w->model);
+  assembly->block.band.rank = zp_bead_rank(w->model) + zp_pouch_rank(w->model);
   if (!zp_assembly_join(&assembly, NULL, 1, 0, &w->form)) return false;
   w->memory = zp_calloc(1, reserve(w, NULL));
   if (!w->memory) return false;

@@ -28,7 +28,7 @@ typedef struct ZpSmallMotion {
   size_t shapes, rates;
   double *mass, *damping, *stiffness; /* [rates * rates], row by row */
   double *by_voltage;                 /* [shapes] forces by the voltage of the source, N/V */
-  double *by_opening;                 /* [shapes] opening of the whole by x */
+  double *by_spread;                  /* [shapes] opening of the whole, or another spread (zp_spread), by x */
   double *charge; /* [rates] charge that the source gives to one part of each member by x, also through where beads end,
                      C/m */
   void *memory;

@@ -7,21 +7,10 @@
 
 /* -- closed ---------------------------------------------------------------------------------------- */
 
-/* Stations whose mean gap tells whether the actuator is closed: both ends of a platform, or one station twice. */
-typedef struct LastToClose {
-  size_t station[2];
-} LastToClose;
-
-static LastToClose last_to_close(const ZpModel *model) {
-  const ZpJoint *end = &model->topology.platform;
-  if (end->kind == ZP_JOINT_CLAMP) return (LastToClose){{end->first / 2, end->first / 2}};
-  return (LastToClose){{end->first, end->last}};
-}
-
 /* Gap of a member that closes last in it, m. */
 static double gap_of(const ZpRestMember *m) {
   if (!m->model->field) return 0;
-  LastToClose last = last_to_close(m->model);
+  ZpLast last = zp_last_to_close(m->model);
   const double *gap = m->eval.plates.gap;
   return 0.5 * (gap[last.station[0]] + gap[last.station[1]]);
 }
@@ -39,7 +28,7 @@ size_t zp_quasistatic_deciding(const ZpStatics *s) {
 double zp_member_gap(const ZpStatics *s, size_t which, double *row) {
   const ZpRestMember *m = &s->member[which];
   const ZpTopology *t = &m->model->topology;
-  LastToClose last = last_to_close(m->model);
+  ZpLast last = zp_last_to_close(m->model);
   if (row) memset(row, 0, s->n * sizeof *row);
   for (size_t k = 0; k < 2 && row; k++) {
     zp_assembly_add_one(&m->assembly, zp_y_of(zp_lower(t, last.station[k])), -0.5, row);

@@ -132,7 +132,7 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
   }
   reserve_solution(s, s->solution);
   s->load = s->own_load;
-  s->bias = s->share = s->suction = s->nearer = 1;
+  s->bias = s->share = s->suction = s->nearer = s->taken = 1;
   s->opening = NAN;
   zp_statics_lay_straight(s);
   return true;
@@ -480,6 +480,12 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   return info;
 }
 
+/* The input at which the row of the held platform would have it where it is, m. */
+static double held_at(const ZpStatics *s) {
+  const ZpRestMember *m = s->member + s->held.member;
+  return (*zp_coordinate(m->model, m->q, s->held.coordinate) - zp_tie_place(&s->held, 0, 0)) / s->held.by_input;
+}
+
 /* A slack pouch has no shape to start from. Until a voltage pulls, it is held where it hangs under a small load, which
  * bends its films over a twentieth of their length. */
 static ZpNewtonInfo hold_along(ZpStatics *s) {
@@ -487,19 +493,19 @@ static ZpNewtonInfo hold_along(ZpStatics *s) {
   const ZpModel *model = s->model;
   const double opening = s->opening;
   s->opening = NAN;
-  s->force = 2 * part * part * zp_ribbon_section(model, 0).EI / (model->L * model->L);
+  s->tight = part * part * zp_ribbon_section(model, 0).EI / (model->L * model->L);
   ZpNewtonInfo info = zp_statics_find_rest(s);
-  s->from = reach_of(s->member);
+  s->from = held_at(s);
   s->opening = opening;
-  s->force = s->nearer = 0;
+  s->tight = s->taken = 0;
   return zp_newton_good(info.end) ? zp_statics_solve(s, MOST_ITERATIONS) : info;
 }
 
 bool zp_statics_take_up(ZpStatics *s, void (*passed)(void *user), void *user) {
   enum { STEPS = 40 };
   bool held = true;
-  for (int k = (int)(s->nearer * STEPS); k < STEPS && held; k++) {
-    held = grow(s, &s->nearer, (k + 1.0) / STEPS, false, 1);
+  for (int k = (int)(s->taken * STEPS); k < STEPS && held; k++) {
+    held = grow(s, &s->taken, (k + 1.0) / STEPS, false, 1);
     if (held) passed(user);
   }
   return held;
@@ -672,9 +678,15 @@ static double deepest_crossing(const ZpModel *model, double U) {
   return fmax(deepest_overlap(model, U), of_insulators * zp_insulation(&model->def));
 }
 
+/* Films that pull are at most half circles, eq. (40.3): is a pouch so short that they push? */
+static bool is_crushed(const ZpRestMember *m) {
+  return m->model->pouch.w > 0 && reach_of(m) < 2 / zp_pi * m->model->pouch.length;
+}
+
 static const char *fault_of_stations(const ZpRestMember *m, double U, bool contact_acts) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
   if (!m->model->field) return NULL;
+  if (is_crushed(m)) return "a pouch is crushed: nothing holds it taut";
   double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
@@ -751,7 +763,7 @@ static double holding(const ZpStatics *s) {
 double zp_statics_away(const ZpStatics *s) {
   const ZpRestMember *m = s->member + s->held.member;
   if (!zp_statics_holds(s)) return 0;
-  return zp_tie_place(&s->held, 0, s->from + s->nearer * (s->opening - s->from)) -
+  return zp_tie_place(&s->held, 0, s->nearer * (s->from + s->taken * (s->opening - s->from))) -
          *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
 
@@ -872,6 +884,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
     add_links(s, r);
   else
     add_springs(s, r);
+  if (s->tight > 0) r[zp_statics_platform(s)] -= zp_statics_lifts(s) * s->tight;
   s->reaction = zp_statics_hold_rate(s, zp_statics_away(s), r);
   double largest = largest_of(s, r);
   if (size) *size = largest / s->scale;
@@ -1083,10 +1096,12 @@ double zp_statics_factor(const ZpStatics *s, size_t which) {
   return m->assembly.factor[load_coordinate(m)];
 }
 
-/* Where a member has a body at the height y: in its own frame, m. */
-static double seen_by(const ZpStatics *s, size_t which, double y) {
-  const ZpNetwork *network = s->model->network;
-  return zp_network_sign(network, which) * (y - s->nearer * zp_network_origin(network, which));
+/* Where a member has a body at one of its ends that is at the height y: in its own frame, m. */
+static double seen_by(const ZpStatics *s, size_t which, bool upper) {
+  const ZpEnds *ends = &s->model->network->ends[which];
+  ZpSight sight = zp_sight_of_end(s->model, which, upper);
+  sight.origin *= s->nearer;
+  return zp_seen(&sight, s->heights.y[upper ? ends->upper : ends->lower]);
 }
 
 static void find_heights(ZpStatics *s) {
@@ -1106,12 +1121,11 @@ const ZpPose *zp_statics_places(ZpStatics *s) {
 
 /* Bodies to the heights that the openings of all members say; then each member to the bodies at its ends. */
 static void place_between(ZpStatics *s) {
-  const ZpNetwork *network = s->model->network;
   find_heights(s);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    zp_place_top(m->model, seen_by(s, k, s->heights.y[network->ends[k].upper]), m->q);
-    zp_place_platform(m->model, &m->assembly, seen_by(s, k, s->heights.y[network->ends[k].lower]), m->q);
+    zp_place_top(m->model, seen_by(s, k, true), m->q);
+    zp_place_platform(m->model, &m->assembly, seen_by(s, k, false), m->q);
   }
 }
 
@@ -1487,11 +1501,11 @@ double zp_statics_relaxing_along(ZpStatics *s, const double *u, size_t branch) {
 
 /* Upward momentum of all nodes, in m->moved. */
 static double momentum_of(const ZpRestMember *m) {
-  const double *up = zp_nodes(m->model, m->moved).y;
+  const double *moved = zp_pulled_of(m->model, m->moved);
   double sum = 0;
   for (size_t j = 0; j < m->model->count; j++)
-    sum += up[j];
-  return sum;
+    sum += moved[j];
+  return zp_rises(&m->model->topology) * sum;
 }
 
 /* Eq. (34.7): nodes move with the frame of their member, too. */
@@ -1529,19 +1543,22 @@ void zp_statics_weigh(void *self, const double *u, double *mu) {
     const size_t k = network->order[i];
     const double way = s->way[network->ends[k].upper];
     ZpRestMember *m = &s->member[k];
-    ZpForces moved = zp_forces(m->model, m->moved);
+    const ZpForces moved = zp_forces(m->model, m->moved);
+    const double rises = zp_rises(&m->model->topology);
+    double *pulled = zp_pulled_of(m->model, m->moved);
     zp_assembly_changes(&m->assembly, u, m->moved);
     for (size_t j = 0; j < m->model->count; j++) {
+      pulled[j] += rises * way;
       moved.x[j] *= m->model->mass[j];
-      moved.y[j] = m->model->mass[j] * (moved.y[j] + way);
+      moved.y[j] *= m->model->mass[j];
     }
     zp_assembly_add(&m->assembly, m->moved, mu);
-    if (hang) s->way[network->ends[k].lower] = way + u[height_of(m)];
+    if (hang) s->way[network->ends[k].lower] = way + rises * u[height_of(m)];
   }
   for (size_t i = s->members; hang && i-- > 0;) {
     const size_t k = network->order[i];
     const double below = s->below[network->ends[k].lower];
-    mu[height_of(&s->member[k])] += below;
+    mu[height_of(&s->member[k])] += zp_rises(&s->member[k].model->topology) * below;
     s->below[network->ends[k].upper] += below + momentum_of(&s->member[k]);
   }
 }
@@ -1553,7 +1570,7 @@ double zp_statics_member_force(ZpStatics *s, size_t which) {
   double sum = 0;
   zp_system_force(m->model, &here, &m->eval, m->force);
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    sum += zp_nodes(m->model, m->force).y[zp_lower(t, i)];
+    sum += zp_lifted(t, zp_nodes(m->model, m->force), zp_lower(t, i));
   if (!s->has_load) sum += here.hung; /* and what hangs below */
   return m->model->parts * sum + zp_load_pull(m->model);
 }

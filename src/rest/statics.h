@@ -58,8 +58,9 @@ typedef struct ZpStatics {
   double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double suction;      /* share of the suction at menisci that acts: 1, or less while it is applied */
   bool opposed;        /* they are antagonists */
-  double from;         /* opening from which that of a held platform is approached, m */
   double nearer;       /* share of the opening, and of the distance of mounts: 1, or less while it is approached */
+  double from, taken;  /* of a pouch: opening at which it hangs, m; share of the way from there: 1, or less */
+  double tight;        /* force that pulls its held end down while it hangs, N, one part */
   ZpTie held;          /* the row of a held platform, */
   double opening;      /* and its input, m; NAN: it does not act */
   double reaction;     /* force that holds it there, N, one part, positive downwards; of the last residual */

@@ -5,7 +5,7 @@
 #include "run/run.h"
 
 static double opening(const ZpModel *model, const ZpState *state) {
-  return zp_opening(&model->topology, zp_state_motion(model, state).y);
+  return zp_last_gap(model, zp_state_motion(model, state).y);
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
@@ -147,7 +147,7 @@ static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
 }
 
 void zp_sim_note_end(ZpSim *sim, const ZpMovingMember *moved) {
-  if (zp_is_pair(&sim->model->topology)) note_closing(sim);
+  if (sim->model->field) note_closing(sim);
   if (sim->model->has_bead) note_starving(sim, moved);
 }
 

@@ -800,19 +800,20 @@ static double mass_at(const ZpMovingMember *m, size_t node) {
 /* Mass of nodes of a member whose height is an unknown of the border => added to `sums` [border], kg. */
 static void add_at_border(const ZpDynamics *d, const ZpMovingMember *m, double *sums) {
   for (size_t j = 0; j < m->model->count; j++) {
-    const int equation = m->assembly.equation[zp_y_of(j)];
+    const int equation = m->assembly.equation[zp_pulled(&m->model->topology, j)];
     if (equation >= (int)d->form.inner) sums[(size_t)equation - d->form.inner] += mass_at(m, j);
   }
 }
 
 /* Mass of nodes of other members that moves with the height of a node, of each half, kg. */
 static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
-  const int equation = m->assembly.equation[zp_y_of(node)];
+  const ZpTopology *t = &m->model->topology;
+  const int equation = m->assembly.equation[zp_pulled(t, node)];
   if (equation < (int)d->form.inner) return 0;
   double own = 0;
   for (size_t j = 0; j < m->model->count; j++)
-    if (m->assembly.equation[zp_y_of(j)] == equation) own += mass_at(m, j);
-  return (d->joined[(size_t)equation - d->form.inner] - own) / (double)zp_halves(&m->model->topology);
+    if (m->assembly.equation[zp_pulled(t, j)] == equation) own += mass_at(m, j);
+  return (d->joined[(size_t)equation - d->form.inner] - own) / (double)zp_halves(t);
 }
 
 /* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
@@ -921,7 +922,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
 static void count_sharers(ZpDynamics *d, const ZpMovingMember *m) {
   const ZpTopology *t = &m->model->topology;
   for (size_t j = zp_upper(t, t->platform.first); j <= zp_lower(t, t->platform.last); j++) {
-    int height = m->assembly.equation[zp_y_of(j)];
+    int height = m->assembly.equation[zp_pulled(t, j)];
     if (height >= 0) d->sharers[height] += 1 / (double)zp_halves(t);
   }
 }
@@ -1211,7 +1212,7 @@ static void arrive(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state)
   double before = zp_load_down(model, at), hung = mean_load(d, m);
   store(d, m, state);
   state->load_work += hung * (zp_load_down(model, at) - before);
-  if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, m->eval.plates.gap);
+  if (model->field) state->zip = zp_eval_touching(model, m->eval.plates.gap);
 }
 
 void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {

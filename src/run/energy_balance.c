@@ -47,13 +47,11 @@ const ZpPose *zp_sim_poses(const ZpSim *first) {
 /* Of one that moves up and down. */
 static double height_of(const ZpSim *first, size_t body) {
   const ZpNetwork *network = first->model->network;
-  const ZpBody *at = &network->body[body];
-  if (at->held) return at->y;
-  const ZpSim *leader = first + at->leader;
-  const size_t k = zp_height_at(leader->model, network->ends[at->leader].lower != body);
-  double *q = zp_state_q(leader->model, leader->state);
-  return zp_network_origin(network, at->leader) +
-         zp_network_sign(network, at->leader) * *zp_coordinate(leader->model, q, k);
+  if (network->body[body].held) return network->body[body].y;
+  const ZpSight at = zp_sight_of_body(first->model, body);
+  const ZpSim *leader = first + at.member;
+  return at.origin +
+         at.sign * *zp_coordinate(leader->model, zp_state_q(leader->model, leader->state), at.coordinate);
 }
 
 ZpPose zp_sim_place(const ZpSim *first, size_t body) {

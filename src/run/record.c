@@ -249,8 +249,7 @@ static size_t front(const ZpModel *model, const ZpState *state) {
   const double *y = zp_state_motion(model, state).y;
   size_t i = 0;
   if (!model->has_film) return state->zip.front;
-  while (i < model->topology.platform.first &&
-         zp_plates_gap(&model->plates, y, i + 1) < fmax(model->faces.range, model->plates.d))
+  while (i < model->topology.platform.first && zp_plates_gap(&model->plates, y, i + 1) < zp_closed_film(model))
     i++;
   return i;
 }
@@ -280,7 +279,8 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   ZpMotion motion = zp_state_motion(model, state);
   const ZpTopology *t = &model->topology;
   row[SIGNAL_stroke] = zp_stroke(model, (ZpNodes){motion.x, motion.y});
-  row[SIGNAL_end_velocity] = t->along ? -zp_platform_middle(t, motion.vx) : zp_platform_middle(t, motion.vy);
+  row[SIGNAL_end_velocity] =
+      t->along ? zp_stroke_change(model, (ZpNodes){motion.vx, motion.vy}) : zp_platform_middle(t, motion.vy);
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_wet_length] = wet_length(model, state);
@@ -288,7 +288,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_angle] = zp_topology_angle(t, motion.x, motion.y);
   row[SIGNAL_contraction] = model->pouch.w > 0 ? row[SIGNAL_zipped_length] / model->pouch.electrode
                             : state->opening0 > model->faces.stop
-                                ? zp_contraction(model, row[SIGNAL_opening], state->opening0)
+                                ? zp_contraction(model, zp_last_gap(model, motion.y), state->opening0)
                                 : NAN;
 }
 

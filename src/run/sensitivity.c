@@ -18,7 +18,8 @@ static double part_of(const ZpModel *first) {
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
 static double opening_of(ZpStatics *s, void *which) {
-  return zp_statics_member_opening(s, *(const size_t *)which);
+  const ZpRestMember *m = &s->member[*(const size_t *)which];
+  return zp_last_gap(m->model, zp_nodes(m->model, m->q).y);
 }
 
 /* Derivative of the hanging equilibrium by a key => rate [members], of coordinates, opening0 and bodies. */
@@ -31,7 +32,7 @@ static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *const rate[], Zp
     const ZpModel *model = first + which;
     memcpy(zp_state_q(model, rate[which]), zp_rest_sensitivity_member(&slope, which),
            zp_coordinates(model) * sizeof *slope.rate);
-    rate[which]->opening0 = zp_is_pair(&model->topology) ? zp_rest_sensitivity_of(&slope, opening_of, &which) : 0;
+    rate[which]->opening0 = model->field ? zp_rest_sensitivity_of(&slope, opening_of, &which) : 0;
   }
   if (found && first->network->plane)
     memcpy(zp_state_bodies(first, rate[0]), zp_rest_sensitivity_bodies(&slope),
@@ -72,7 +73,7 @@ static bool allocate_key(const ZpSim *sim, ZpKeyRates *of) {
 
 static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
   const ZpModel *model = rates->sim->model;
-  bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
+  bool hangs = model->field || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
   of->lost = INFINITY;
   of->last[0].t = of->last[1].t = NAN;
   if (!allocate_key(rates->sim, of)) return zp_fail_memory(err);

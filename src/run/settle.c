@@ -122,14 +122,14 @@ void zp_sim_start_at(ZpSim *sim, const double *q, double pressure) {
 static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
-  /* a single straight ribbon needs neither a start nor a reference */
-  if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
+  /* a straight ribbon that cannot close needs neither a start nor a reference */
+  if (!model->field && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   double pressure = 0;
   if (!solve(sim, hooks, q, &pressure, &found)) return false;
   if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
-  if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
+  if (model->field) sim->state->opening0 = zp_last_gap(model, zp_nodes(model, q).y);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) zp_sim_start_at(sim, q, pressure);
   return true;
 }
@@ -138,7 +138,7 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
 static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
   const double *q = rest->member[which].q;
-  sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
+  sim->state->opening0 = zp_last_gap(model, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   zp_sim_start_at(sim, q, rest->member[which].eval.pressure);
   if (zp_abreast(model) > 1)

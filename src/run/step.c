@@ -190,9 +190,9 @@ static void follow_voltage(ZpSim *sim) {
 static void note_start(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpMotion motion = zp_state_motion(model, sim->state);
-  if (!zp_is_pair(&model->topology)) return;
+  if (!model->field) return;
   sim->step_start =
-      (ZpStepStart){sim->state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
+      (ZpStepStart){sim->state->t, zp_last_gap(model, motion.y), zp_last_gap_rate(model, motion.y, motion.vy)};
 }
 
 bool zp_sim_prepare(ZpSim *sim) {

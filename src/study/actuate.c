@@ -40,23 +40,19 @@ static double widest_opening(const ZpTable *series) {
   return widest;
 }
 
-static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
+static void summarize_closing(ZpSim *sim, ZpStop stop, ZpResult *result) {
   bool until_end = zp_outcome_good(result->outcome) && !(result->outcome == ZP_ZIPPED && stop == ZP_STOP_CLOSED);
   zp_result_add(result, "contraction", "1", zp_at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
   zp_result_add(result, "closed_from_s", "s", until_end ? zp_sim_closed_from(sim) : NAN);
   zp_result_add(result, "zipped_length_m", "m", zp_at_end(sim, result, "zipped_length"));
+}
+
+static void summarize_opening(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "opening_m", "m", zp_at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
   if (zp_tells_angle(sim->model)) zp_result_add(result, "angle_rad", "rad", zp_at_end(sim, result, "angle"));
-  zp_result_add(result, "energy_error", "1", energy_error(sim, result));
-}
-
-/* Of a pouch; its law adds strain and pressure. */
-static void summarize_pouch(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "contraction", "1", zp_at_end(sim, result, "contraction"));
-  zp_result_add(result, "zipped_length_m", "m", zp_at_end(sim, result, "zipped_length"));
 }
 
 /* Work on a caught mass from then on, or on a dropped mass until then, J; to be added to that on load.mass. */
@@ -179,7 +175,7 @@ static bool was_open(const ZpSim *sim) {
 /* Note an actuator that starts closed, or nearly so. */
 static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double opening = zp_table_get(result->series, 0, "opening_m");
-  if (zp_is_pair(&model->topology) && sim->state->t > 0 && !was_open(sim))
+  if (model->field && sim->state->t > 0 && !was_open(sim))
     zp_result_note(result, "the actuator starts closed and does not open, so it does not zip: zip_time_s is null");
   else if (opening > 0)
     zp_note_start(result, model, opening);
@@ -314,11 +310,9 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
                       ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (zp_is_pair(&model->topology))
-    summarize_actuator(sim, stop, result);
-  else if (model->driven.places > 0)
-    zp_result_add(result, "energy_error", "1", energy_error(sim, result));
-  if (model->pouch.w > 0) summarize_pouch(sim, result);
+  if (model->field) summarize_closing(sim, stop, result);
+  if (zp_is_pair(&model->topology)) summarize_opening(sim, result);
+  if (zp_follows_voltage(model)) zp_result_add(result, "energy_error", "1", energy_error(sim, result));
   if (model->has_film) add_at_end(sim, result, of_film);
   if (model->leaks) add_at_end(sim, result, of_leak);
   if (model->rod.plastic) add_at_end(sim, result, of_yielding);

@@ -31,7 +31,7 @@ typedef struct Mark {
 
 /* How large the motion of a cycle is. */
 typedef struct Response {
-  double size, rate; /* half of the range of the opening, m, and of its rate, m/s */
+  double size, rate; /* half of the range of the spread, m, and of its rate, m/s */
   double spent,
       kept; /* energy that the source and driven curvatures have given in the cycle: lost, and stored at its end, J */
   double drawn; /* all that it has given before it took some back, J */
@@ -46,9 +46,10 @@ typedef struct Range {
   double least, most;
 } Range;
 
-/* Range of an opening, of the actuator or of each member of a network, and of its rate in a cycle, m, m/s. */
+/* Ranges in a cycle of an opening, or of the gap that closes last, of the actuator or of each member of a network, m;
+ * of its spread (zp_spread), m; of the rate of that, m/s. */
 typedef struct Opens {
-  Range opening, rate;
+  Range opening, spread, rate;
 } Opens;
 
 typedef struct Cycles {
@@ -57,6 +58,7 @@ typedef struct Cycles {
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
   double load[PHASES + 1][2]; /* x and y of the point that the load hangs on, by row, m */
+  double spread[PHASES + 1];  /* of the actuator or its first member, m */
   double lifted[PHASES + 1];  /* of a network: zp_sim_lifted, J */
   double period;              /* s */
   double highest;             /* size of the command, V */
@@ -101,21 +103,36 @@ static double hanging(const Cycles *c, size_t which) {
   return zp_is_network(c->model) ? c->sim[which].state->opening0 : zp_sim_hanging(c->sim);
 }
 
+/* Has each opening a member of its own, or are several in series? */
+static bool is_one_of_all(const Cycles *c) {
+  return c->model->members > 1 && !zp_is_network(c->model);
+}
+
+static ZpMotion motion_of(const Cycles *c, size_t which) {
+  return zp_state_motion(c->sim[which].model, c->sim[which].state);
+}
+
 static double rate_of(const Cycles *c, size_t which) {
-  const ZpSim *m = c->sim + which;
-  if (!zp_is_network(c->model)) return zp_sim_get(c->sim, "end_velocity");
-  return zp_opening(&m->model->topology, zp_state_motion(m->model, m->state).vy);
+  if (is_one_of_all(c)) return zp_sim_get(c->sim, "end_velocity");
+  ZpMotion motion = motion_of(c, which);
+  return zp_spread_change(c->sim[which].model, (ZpNodes){motion.vx, motion.vy});
+}
+
+static double spread_of(const Cycles *c, size_t which) {
+  if (is_one_of_all(c)) return zp_sim_get(c->sim, "opening");
+  ZpMotion motion = motion_of(c, which);
+  return zp_spread(c->sim[which].model, (ZpNodes){motion.x, motion.y});
 }
 
 static double opening_of(const Cycles *c, size_t which) {
-  const ZpSim *m = c->sim + which;
-  if (!zp_is_network(c->model)) return zp_sim_get(c->sim, "opening");
-  return zp_opening(&m->model->topology, zp_state_motion(m->model, m->state).y);
+  if (is_one_of_all(c)) return zp_sim_get(c->sim, "opening");
+  return zp_last_gap(c->sim[which].model, motion_of(c, which).y);
 }
 
 static void see_openings(Cycles *c, bool first) {
   for (size_t k = 0; k < c->opening; k++) {
     c->opens[k].opening = with(c->opens[k].opening, opening_of(c, k), first);
+    c->opens[k].spread = with(c->opens[k].spread, spread_of(c, k), first);
     c->opens[k].rate = with(c->opens[k].rate, rate_of(c, k), first);
   }
 }
@@ -130,6 +147,7 @@ static void keep_row(Cycles *c) {
   zp_sim_read_columns(c->sim, c->rows->columns, c->rows->value + row * c->rows->columns);
   c->rows->rows++;
   see_openings(c, row == 0);
+  c->spread[row] = spread_of(c, 0);
   c->lifted[row] = zp_is_network(c->model) ? zp_sim_lifted(c->sim) : 0;
   zp_sim_see(c->sim);
 }
@@ -254,7 +272,7 @@ static Response response_of(const Cycles *c) {
   energies_of(c, &given, &taken);
   Response response = {0, 0, given + curvature_work(c) - taken - stored, stored, given};
   for (const Opens *o = c->opens; o < c->opens + c->opening; o++) {
-    response.size = fmax(response.size, half_of(o->opening));
+    response.size = fmax(response.size, half_of(o->spread));
     response.rate = fmax(response.rate, half_of(o->rate));
   }
   return response;
@@ -431,7 +449,7 @@ static bool stays(const Cycles *c) {
   bool all = true;
   for (size_t k = 0; k < c->opening && all; k++) {
     const Range opening = c->opens[k].opening;
-    all = opening.least > 0.1 * hanging(c, k) || opening.most < zp_closed_opening(c->sim[k].model, hanging(c, k));
+    all = !(opening.least <= 0.1 * hanging(c, k)) || opening.most < zp_closed_opening(c->sim[k].model, hanging(c, k));
   }
   return all;
 }
@@ -531,16 +549,21 @@ static void settle(Cycles *c) {
 
 /* -- the results of a cycle ------------------------------------------------------------------------ */
 
-/* Harmonic n of minus the opening, or of the squared command, over a cycle. */
+/* A part of a periodic signal. */
 typedef struct Harmonic {
   double cosine, sine;
 } Harmonic;
 
-static Harmonic harmonic(const Cycles *c, const char *column, bool squared, int n) {
+/* Faces attract with the square of a voltage; without them it drives a curvature. */
+static double drive_of(const Cycles *c, double U) {
+  return c->model->field ? U * U : zp_driven_aim(c->model->driven.place, U);
+}
+
+/* Of the drive, or of minus the spread. */
+static Harmonic harmonic(const Cycles *c, bool of_drive, int n) {
   Harmonic sum = {0, 0};
   for (int k = 0; k < PHASES; k++) {
-    double value = at(c, k, column), turns = (double)(n * k) / PHASES;
-    value = squared ? value * value : -value;
+    double value = of_drive ? drive_of(c, at(c, k, "command_V")) : -c->spread[k], turns = (double)(n * k) / PHASES;
     sum.cosine += 2.0 / PHASES * value * zp_cosine_of(turns);
     sum.sine += 2.0 / PHASES * value * zp_sine_of(turns);
   }
@@ -551,12 +574,12 @@ static double size_of(Harmonic h) {
   return sqrt(h.cosine * h.cosine + h.sine * h.sine);
 }
 
-/* Lag of closing behind the squared command, rad, -pi / 2 to 3 pi / 2: of the harmonic that is larger in the
- * command. */
+/* Lag of closing behind the squared command, or behind the driven curvature, rad, -pi / 2 to 3 pi / 2: of the harmonic
+ * that is larger there. */
 static double phase_of(const Cycles *c) {
-  Harmonic first = harmonic(c, "command_V", true, 1), second = harmonic(c, "command_V", true, 2);
+  Harmonic first = harmonic(c, true, 1), second = harmonic(c, true, 2);
   int n = size_of(second) > size_of(first) ? 2 : 1;
-  Harmonic drive = n == 1 ? first : second, moves = harmonic(c, "opening_m", false, n);
+  Harmonic drive = n == 1 ? first : second, moves = harmonic(c, false, n);
   double product = size_of(drive) * size_of(moves);
   if (!(product > 0)) return NAN;
   double cosine = drive.cosine * moves.cosine + drive.sine * moves.sine,
@@ -621,8 +644,14 @@ static void summarize_network(const Cycles *c, ZpResult *result) {
   }
 }
 
+/* A name for its least value, and for its largest one. */
+static void add_range(const Cycles *c, ZpResult *result, const char *least, const char *most, const char *unit,
+                      Range range) {
+  add_periodic(c, result, least, unit, range.least);
+  add_periodic(c, result, most, unit, range.most);
+}
+
 static void summarize_motion(const Cycles *c, ZpResult *result) {
-  const Range opening = c->opens->opening;
   zp_result_add(result, "frequency_Hz", "Hz", 1 / c->period);
   zp_result_add(result, "periodic", "count", c->repeats == 1);
   zp_result_add(result, "linear", "count", c->linear);
@@ -633,11 +662,14 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
     summarize_network(c, result);
     return;
   }
-  add_periodic(c, result, "opening_min_m", "m", opening.least);
-  add_periodic(c, result, "opening_max_m", "m", opening.most);
+  if (zp_is_pair(&c->model->topology))
+    add_range(c, result, "opening_min_m", "opening_max_m", "m", c->opens->opening);
+  else
+    add_range(c, result, "stroke_min_m", "stroke_max_m", "m", range_of(c, "stroke_m"));
+  if (c->model->flat) add_range(c, result, "contraction_min", "contraction_max", "1", range_of(c, "contraction"));
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", closes(c, 0));
+  zp_result_add(result, "closes", "count", c->model->field ? closes(c, 0) : NAN);
 }
 
 /* Work on the load over what the source gives in a cycle. */
@@ -700,9 +732,12 @@ static void summarize(const Cycles *c, ZpResult *result) {
     c->rows->value[k * c->rows->columns] -= start;
   zp_result_add(result, "steps", "count", (double)c->steps);
   ZpMargins seen = zp_sim_margins(c->sim);
-  zp_add_margins(result, c->model, &seen);
+  if (c->model->field)
+    zp_add_margins(result, c->model, &seen);
+  else
+    zp_add_stress(result, c->model, &seen);
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
-  if (!zp_is_network(c->model)) zp_note_start(result, c->model, c->sim->state->opening0);
+  if (c->model->field && !zp_is_network(c->model)) zp_note_start(result, c->model, c->sim->state->opening0);
   zp_note_liquid(result, c->model);
   if (c->repeats == 1 && c->refills)
     zp_result_note(result,
@@ -870,7 +905,7 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET(member_K.drive.delay), ZP_NEVER, no_begin),
     ZP_RULE(PHYSICS, ZP_SET(member_K.drive.frequency), ZP_NEVER, "one drive gives the period of all"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it opens and closes"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_USES_VOLTAGE, "a voltage moves nothing else"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
     ZP_RULE_STARTS,
     /* the linear answer */

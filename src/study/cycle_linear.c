@@ -119,12 +119,12 @@ static double outside_reserve(ZpLinearCycle *l, size_t which, int half) {
 
 /* -- the motion of second order --------------------------------------------------------------------- */
 
-/* Amplitude of the opening in a harmonic of x, m. */
+/* Amplitude of the spread in a harmonic of x, m. */
 static double amplitude(const ZpLinearCycle *l, const ZpComplex *x) {
   ZpComplex sum = {0, 0};
   for (size_t j = 0; j < l->small.shapes; j++) {
-    sum.re += l->small.by_opening[j] * x[j].re;
-    sum.im += l->small.by_opening[j] * x[j].im;
+    sum.re += l->small.by_spread[j] * x[j].re;
+    sum.im += l->small.by_spread[j] * x[j].im;
   }
   return sqrt(sum.re * sum.re + sum.im * sum.im);
 }
@@ -140,6 +140,7 @@ static void find_force(ZpLinearCycle *l, size_t which, double share, double u) {
   ZpBead bead[ZP_BEADS] = {{0}};
   ZpSpan span = zp_span_at(l->q);
   span.U0 = span.U1 = zp_member_voltage(model, sqrt(fmax(l->mean + share * u, 0)));
+  span.pressure = zp_statics_span(s, which).pressure;
   if (model->has_bead) {
     double reach[ZP_BEADS];
     zp_plates_gaps(&model->plates, l->q, zp_nodes(model, l->q).y, &m->eval.plates);
@@ -344,6 +345,9 @@ static void put_member(ZpLinearCycle *l, size_t which, double turns, ZpSim *sim)
   zp_small_motion_nodes(&l->small, which, l->x, 1, zp_state_v(model, sim->state));
   at_phase(l, turns, false, l->x);
   zp_small_motion_nodes(&l->small, which, l->x, 1, q);
+  if (zp_pouch_rank(model) > 0)
+    *zp_law_state(model, &zp_term_pouch, sim->state) =
+        zp_pouch_predicted(model, l->rest.statics.member[which].q, &l->rest.statics.member[which].eval, q, 1);
   for (size_t i = 0; i < zp_coordinates(model); i++)
     q[i] += l->rest.statics.member[which].q[i];
 }

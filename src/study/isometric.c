@@ -330,7 +330,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
 
 static void record_passed(void *user) {
   Holder *h = user;
-  record(h, true, h->at.rest.statics.nearer == 1);
+  record(h, true, h->at.rest.statics.taken == 1);
 }
 
 /* A pouch contracts to where it is held, under voltage. */
@@ -404,7 +404,7 @@ static void run(Holder *h) {
   hold_unpowered(h, &info);
   if (h->outcome == ZP_CONVERGED && h->at.rest.statics.biased) raise_bias(h);
   if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, &info);
-  if (h->outcome == ZP_CONVERGED && s->nearer < 1) take_up(h, &info);
+  if (h->outcome == ZP_CONVERGED && s->taken < 1) take_up(h, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
   describe(h, h->at.result->message, sizeof h->at.result->message);

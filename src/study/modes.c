@@ -245,9 +245,10 @@ static const ZpRules rules_of_a_loop = ZP_RULES_OF(rule_of_a_loop);
 
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
-    ZP_RULE_IF(
-        NOT_MODELLED, ZP_LACKS(RIGID), ZP_IS(liquid.model, ZP_LIQUID_SUBMERGED), ZP_NEVER,
-        "it neglects the mass of the liquid, which is far larger than that of the ribbons; use liquid.model none"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_LACKS(RIGID), ZP_IS(liquid.model, ZP_LIQUID_SUBMERGED),
+               ZP_NOT(control.kind, ZP_CONTROL_NONE),
+               "frequencies neglect the mass of the liquid, which is far larger than that of the ribbons; use "
+               "liquid.model none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(modes.voltage, 0),
             "the stiffness of a computed field is not available; use plates"),
     ZP_RULES_OF_A_LOOP,
@@ -308,7 +309,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
     run(p);
     zp_equilibria_note(&p->at, dry.modes.voltage);
     if (zp_def_liquid(task->def) == ZP_LIQUID_SUBMERGED)
-      zp_result_note(result, "the film is ignored: frequencies are those of the plate without its mass and drag");
+      zp_result_note(result, "the film is ignored: frequencies are those without its mass and drag");
     if (zp_def_liquid(task->def) == ZP_LIQUID_BEAD)
       zp_result_note(result, "the bead is ignored: frequencies are those of the ribbons without its mass and drag%s",
                      dry.modes.voltage > 0 ? ", with the liquid's permittivity everywhere" : "");

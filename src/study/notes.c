@@ -53,7 +53,7 @@ void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen
     zp_result_note(result, "the metal reaches its yield stress of %.4g MPa: it stays bent", seen->yields / 1e6);
   else if (seen->stress > seen->yields)
     zp_result_note(result,
-                   "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent; set "
+                   "the ribbon's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent; set "
                    "ribbon.plasticity true to compute this",
                    seen->stress / 1e6, seen->yields / 1e6);
 }

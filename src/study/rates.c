@@ -149,7 +149,7 @@ static void add_currents(const ZpRunSensitivity *rates, size_t k, ZpResult *resu
 static void add_key(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
   const ZpSim *sim = rates->sim;
   int key = rates->key[k].by.key;
-  if (zp_is_pair(&sim->model->topology)) add_instants(rates, k, result);
+  if (sim->model->field) add_instants(rates, k, result);
   for (size_t i = 0; i < AT_END; i++)
     if (has(sim, at_end[i].of))
       zp_result_add_sensitivity(result, at_end[i].name, key,

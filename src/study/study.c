@@ -102,9 +102,9 @@ static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task
   return status;
 }
 
-/* One film of a pouch is modelled; the result has both. */
+/* One film of a pouch is modelled; the result has both. A single pouch is drawn lying, several hang. */
 static void mirror(ZpResult *result) {
-  ZpShapes *both = zp_shapes_mirrored(result->shapes);
+  ZpShapes *both = zp_shapes_mirrored(result->shapes, zp_shapes_members(result->shapes) == 1);
   if (!both) result->incomplete = true;
   if (!both) return;
   zp_shapes_destroy(result->shapes);

@@ -6,11 +6,10 @@
 static ZpBodyHeight height_of(const ZpNetwork *network, ZpAssembly *const assembly[], const ZpModel *first,
                               size_t body) {
   if (network->body[body].held) return (ZpBodyHeight){.held = true, .offset = network->body[body].y};
-  const size_t leader = network->body[body].leader;
-  const size_t k = zp_height_at(first + leader, network->ends[leader].lower != body);
-  const double sign = zp_network_sign(network, leader);
-  return (ZpBodyHeight){false, (size_t)assembly[leader]->equation[k], sign * assembly[leader]->factor[k],
-                        zp_network_origin(network, leader) + sign * assembly[leader]->offset[k]};
+  const ZpSight at = zp_sight_of_body(first, body);
+  const ZpAssembly *a = assembly[at.member];
+  return (ZpBodyHeight){false, (size_t)a->equation[at.coordinate], at.sign * a->factor[at.coordinate],
+                        at.origin + at.sign * a->offset[at.coordinate]};
 }
 
 bool zp_springs_create(const ZpModel *first, ZpAssembly *const assembly[], ZpSprings *springs) {

@@ -108,11 +108,13 @@ static const ZpRule rule[] = {
     /* lateral edges */
     ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no edges"),
-    ZP_RULE_IF(PHYSICS, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_ABOVE(insulator.thickness, 0),
+    ZP_RULE_IF(PHYSICS, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER), ZP_ABOVE(insulator.thickness, 0),
                "the field at the edges of bare faces that touch is infinite"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.insulator.thickness), UNEQUAL),
-    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.insulator.permittivity), UNEQUAL),
-    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.ribbon.thickness), UNEQUAL),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER), ZP_UNSET(lower.insulator.thickness),
+               UNEQUAL),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER), ZP_UNSET(lower.insulator.permittivity),
+               UNEQUAL),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER), ZP_UNSET(lower.ribbon.thickness), UNEQUAL),
     /* the paper's offset, which is that of both insulators */
     ZP_RULES_EQUAL_INSULATORS(PHYSICS, ZP_SET(electro.insulator_offset), "the offset stands for both insulators"),
 };

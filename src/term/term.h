@@ -125,8 +125,8 @@ double zp_term_meniscus_head(const ZpModel *model, double suction, double U, dou
 double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
 /* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last
- * force, of a span that ended `at` these coordinates, foresees after a fraction of a change of them [2 stride], Pa, also
- * its state there; number of terms of rank one that it adds to the band. */
+ * force, of a span that ended `at` these coordinates, foresees after a fraction of a change of them [2 stride], Pa,
+ * also its state there; number of terms of rank one that it adds to the band. */
 static inline size_t zp_pressure_place(const ZpModel *model) {
   return model->count - model->s;
 }
