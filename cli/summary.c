@@ -65,11 +65,30 @@ static void print_of_key(int key, double value, int digits, int width) {
   printf("%*.*s%s", width, number, text, text + number);
 }
 
+/* Print the interval of a fitted key: ", 95 %: 184.1 GPa .. 185.2 GPa"; "..." where it has no end. */
+static void print_interval(const ZpResult *result, const char *key_name, int key) {
+  char name[128];
+  double end[2];
+  for (int k = 0; k < 2; k++) {
+    snprintf(name, sizeof name, "%s_interval_95_%s", key_name, k ? "high" : "low");
+    end[k] = zp_result_get(result, name);
+  }
+  if (isnan(end[0]) && isnan(end[1])) return;
+  printf(",  95 %%: ");
+  for (int k = 0; k < 2; k++) {
+    if (k) printf(" .. ");
+    if (isnan(end[k]))
+      printf("?");
+    else
+      print_of_key(key, end[k], 6, 0);
+  }
+}
+
 /* Print a fitted key with its standard error. => is `scalar` one? */
 static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   const int key = zp_key_find(scalar->name);
   char name[128];
-  if (key < 0) return false;
+  if (key < 0 || strstr(scalar->name, "_interval_95")) return false;
   snprintf(name, sizeof name, "%s_standard_error", scalar->name);
   const double error = zp_result_get(result, name);
   printf("  %-26s ", scalar->name);
@@ -78,6 +97,7 @@ static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
     printf("  +- ");
     print_of_key(key, error, 2, 0);
   }
+  print_interval(result, scalar->name, key);
   printf("\n");
   return true;
 }

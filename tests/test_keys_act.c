@@ -180,6 +180,11 @@
   "study=calibrate actuator.kind=ribbon actuator.right_end=guided ribbon.density=0 mesh.nodes=21 data.file=soft.csv "  \
   "calibrate.fit=ribbon.young_modulus"
 
+/* Rows of a record are compared with a run. */
+#define WATCHED                                                                                                        \
+  "study=calibrate actuator.kind=ribbon actuator.right_end=guided mesh.nodes=11 data.file=watched.csv "             \
+  "calibrate.fit=ribbon.young_modulus calibrate.starts=1"
+
 /* -- what they lead to ----------------------------------------------------------------------------- */
 
 typedef enum Change {
@@ -405,13 +410,13 @@ static void write_checkpoint(const char *name, const char *end_time) {
   ck_assert(file && zp_checkpoint_write(result->checkpoint, file, NULL) == ZP_OK && fclose(file) == 0);
 }
 
-/* Strokes of STRIP at two loads, by P L^3 / (12 E I), in mm; half of them as another column. */
-static void write_strokes(const char *name, double E) {
+/* Strokes of STRIP at two loads, by P L^3 / (12 E I), and `above` them, in mm; half of them as another column. */
+static void write_strokes(const char *name, double E, double above) {
   FILE *file = fopen(name, "w");
   ck_assert_ptr_nonnull(file);
   fprintf(file, "load_mg, stroke_mm, stroke_um, ribbon.width_mm\n");
   for (int mg = 5; mg <= 10; mg += 5) {
-    double mm = 1e3 * mg * 1e-6 * 9.81 * CUBE(0.1) / (12 * EI * E / 200e9);
+    double mm = 1e3 * mg * 1e-6 * 9.81 * CUBE(0.1) / (12 * EI * E / 200e9) + above;
     fprintf(file, "%d, %.12g, %.12g, 12.7\n", mg, mm, 500 * mm);
   }
   ck_assert_int_eq(fclose(file), 0);
@@ -424,8 +429,10 @@ static void write_files(void) {
   write_file("rises_slowly.csv", "time_ms,setpoint_pF\n0,300\n36,500\n");
   write_checkpoint("early.zps", "1ms");
   write_checkpoint("late.zps", "2ms");
-  write_strokes("soft.csv", 100e9);
-  write_strokes("stiff.csv", 400e9);
+  write_strokes("soft.csv", 100e9, 0);
+  write_strokes("stiff.csv", 400e9, 0);
+  write_strokes("raised.csv", 100e9, 1);
+  write_file("watched.csv", "time_ms,stroke_mm\n0,1\n1,1\n2,1\n3,1\n");
 }
 
 AROUND_ALL(write_files, NULL)

@@ -362,11 +362,12 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
   bool found = false;
   for (size_t i = 0; i < files->count; i++) {
     int column = zp_data_column(&files->file[i], theirs);
-    if (column < 0) column = find_stem(&files->file[i], theirs);
+    const bool whole = column >= 0; /* with its unit */
+    if (!whole) column = find_stem(&files->file[i], theirs);
     found = found || column >= 0 || find_column(&files->file[i], ours) >= 0;
     if (column < 0) continue;
     const char *unit = strrchr(files->file[i].cell[column], '_');
-    if (differ_in_unit(&files->file[i], files->file[i].cell[column], ours))
+    if (!whole && differ_in_unit(&files->file[i], files->file[i].cell[column], ours))
       return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.60s = %.60s: in %.200s the unit of that column is %.20s", theirs,
                      ours, files->file[i].path, unit + 1);
     files->file[i].cell[column] = ours;

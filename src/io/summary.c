@@ -60,6 +60,23 @@ static void close_groups(ZpJson *json, Open *open, const char *name) {
   }
 }
 
+/* Both ends of an interval are scalars, so that a sweep has columns, but an array in JSON: "#_interval_95_low" is followed
+ * by "#_interval_95_high". */
+static const char low_end[] = "_low", high_end[] = "_high", interval[] = "_interval_95";
+
+static bool ends_with(const char *name, const char *end) {
+  const size_t length = strlen(name), ending = strlen(end);
+  return length > ending && strcmp(name + length - ending, end) == 0;
+}
+
+static bool is_low_end(const ZpScalar *scalar) {
+  return ends_with(scalar->name, low_end) && strstr(scalar->name, interval);
+}
+
+static bool is_high_end(const ZpScalar *scalar) {
+  return ends_with(scalar->name, high_end) && strstr(scalar->name, interval);
+}
+
 /* A number with points in its name is in groups: {"members": {"left": {"opening_m": ...}}}. */
 static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
   close_groups(json, open, scalar->name);
@@ -70,7 +87,16 @@ static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
     zp_json_open(json, group, '{');
     snprintf(open->path, sizeof open->path, "%.*s", (int)(point + 1 - scalar->name), scalar->name);
   }
-  zp_json_number(json, rest, scalar->value, scalar->unit);
+  if (is_low_end(scalar)) {
+    char name[ZP_PATH_SIZE];
+    snprintf(name, sizeof name, "%.*s", (int)(strlen(rest) - strlen(low_end)), rest);
+    zp_json_open(json, name, '[');
+    for (int end = 0; end < 2; end++)
+      zp_json_number(json, NULL, scalar[end].value, scalar->unit);
+    zp_json_close(json, ']');
+  } else {
+    zp_json_number(json, rest, scalar->value, scalar->unit);
+  }
 }
 
 static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
@@ -87,7 +113,7 @@ static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult
     bool listed = false;
     for (size_t k = 0; k < count; k++)
       listed |= is_of(&lists[k], scalar);
-    if (!listed) put_nested(json, &open, scalar);
+    if (!listed && !is_high_end(scalar)) put_nested(json, &open, scalar);
   }
   close_groups(json, &open, "");
   if (result->sensitivities > 0) put_sensitivity(json, scenario, result);
