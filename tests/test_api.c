@@ -481,12 +481,13 @@ TEST(bad_times_move_nothing) {
 
 /* zp_outcome_name(999) read beyond its list. */
 TEST(words_of_no_outcome) {
-  const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_BEYOND_MODEL + 1};
+  const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_DOUBTFUL + 1};
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0]; k++)
     ck_assert_str_eq(zp_outcome_name((ZpOutcome)beyond[k]), "unknown");
   ck_assert_str_eq(zp_outcome_name(ZP_PULLED_IN), "pulled_in");
   ck_assert_str_eq(zp_outcome_name(ZP_EVENT), "event");
   ck_assert_str_eq(zp_outcome_name(ZP_AT_BOUND), "at_bound");
+  ck_assert_str_eq(zp_outcome_name(ZP_DOUBTFUL), "doubtful");
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_COUNT), "unknown");
   ck_assert_str_eq(zp_step_limit_name((ZpStepLimit)-1), "unknown");
 }

@@ -85,6 +85,7 @@ static bool find_unit(char *name, char **unit, char **end) {
     return true;
   }
   char *last = name + length;
+  if (*end && zp_is_unit(*end + 1)) return false; /* "viscosity_mm2/s" */
   while (last > name && !strchr("/, ", last[-1]))
     last--;
   if (last <= name + 1 || !zp_is_unit(last)) return false;

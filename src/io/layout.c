@@ -1,7 +1,6 @@
 #include "io/layout.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "io/range.h"
@@ -108,38 +107,44 @@ char *zp_cell_unit(char *cell) {
 
 /* -- the table -------------------------------------------------------------------------------------- */
 
+/* A copy of the next cell of a line, cut where it is too long to be a number or a unit; NULL follows the last one. */
+static char *copy_cell(char **line, char separator, char copy[LONGEST_CELL]) {
+  char *end = zp_cell_end(*line, separator);
+  const size_t length = end ? (size_t)(end - *line) : strlen(*line);
+  snprintf(copy, LONGEST_CELL, "%.*s", (int)(length < LONGEST_CELL ? length : LONGEST_CELL - 1), *line);
+  *line = end && *end ? end + 1 : NULL;
+  return unquote(zp_trim(copy));
+}
+
 /* How many cells a line has, those with a text, with a number, and empty ones at its end. */
 typedef struct Cells {
   size_t count, filled, numbers, trailing;
 } Cells;
 
-static Cells cells_of(const char *line, char separator) {
-  Cells cells = {0};
-  char *copy = strdup(line), *rest = copy;
-  if (copy) cells.count = zp_cells_count(copy, separator);
-  while (rest && cells.count > 1) {
-    const char *cell = zp_cell_next(&rest, separator);
+static Cells cells_of(char *line, char separator) {
+  Cells cells = {.count = zp_cells_count(line, separator)};
+  char copy[LONGEST_CELL];
+  while (line && cells.count > 1) {
+    const char *cell = copy_cell(&line, separator, copy);
     cells.filled += *cell != 0;
     cells.numbers += is_number(cell, separator);
     cells.trailing = *cell ? 0 : cells.trailing + 1;
   }
-  free(copy);
   return cells;
 }
 
 /* Does a line have units and empty cells only? */
-static bool has_units(const char *line, char separator) {
-  char *copy = strdup(line), *rest = copy;
+static bool has_units(char *line, char separator) {
+  char copy[LONGEST_CELL];
   size_t units = 0, others = 0;
-  while (rest) {
-    char *cell = zp_cell_next(&rest, separator);
+  while (line) {
+    char *cell = copy_cell(&line, separator, copy);
     if (!*cell || strcmp(cell, "-") == 0) continue;
     if (zp_cell_unit(cell))
       units++;
     else
       others++;
   }
-  free(copy);
   return units > 0 && others == 0;
 }
 
