@@ -79,6 +79,7 @@ TEST(curvature_counts_as_it_stretches_the_tape) {
   const ZpRodParams *two = &model_of(&pair)->rod, *one = &model_of(&flange)->rod;
   for (size_t i = 0; i < zp_rod_point_count(two); i++) {
     ZpRodPoint point = zp_rod_point(two, i);
+    ck_assert_uint_eq(zp_rod_point_ribbon(two, &point), point.joint[0] % 2);
     if (point.length > 0) ck_assert_double_gt((point.joint[0] % 2 ? -1 : 1) * (point.share[0] + point.share[1]), 0);
   }
   ck_assert_double_lt(zp_rod_point(one, 5).share[0], 0);

@@ -3,6 +3,7 @@
 #include "limit_util.h"
 
 #include "actuator/resolution.h"
+#include "run/run.h"
 
 static const double L = 0.1, delta = 0.2e-3, width = 12.7e-3, thick = 1e-3, eps0 = 8.8541878128e-12;
 
@@ -232,6 +233,19 @@ TESTS(energy_is_kept_while_it_zips, 0, 4) {
          work = zp_table_get(result->series, last, "electric_work_J");
   printf("energy off by %.1e of the work, stroke %.3f mm\n", off / work, 1e3 * zp_result_get(result, "stroke_m"));
   ck_below(fabs(off), 1e-7 * work);
+}
+
+/* The liquid also leaves through a free end, where its head is 0; not so where the end is clamped. */
+TESTS(liquid_leaves_at_a_free_end, 0, 2) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-3}, {"drive.voltage", 1e3},
+                          {"actuator.right_end", _i ? ZP_END_CLAMPED : ZP_END_FREE}, {"mesh.nodes", 21},
+                          {"liquid.model", ZP_LIQUID_SUBMERGED});
+  ZpSim *sim = sim_of(model_of(&def));
+  run_to(sim, 1e-3);
+  const double *head = zp_state_own(sim->model, sim->state) + zp_film_mode_at(sim->model->nodes - 1, 0);
+  if (_i) ck_assert_double_gt(fabs(head[0]), 1e-3);
+  if (!_i) ck_assert(head[0] == 0 && head[1] == 0);
+  ck_assert_double_gt(fabs(head[-ZP_FILM_MODES]), 1e-3);
 }
 
 /* -- derivatives ------------------------------------------------------------------------------------- */

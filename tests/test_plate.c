@@ -117,6 +117,15 @@ TESTS(layer_of_the_stop_bears_the_rest, 0, 2) {
   ck_near(s * s * s * k * g0, pull - k * (g0 - g), 3.8e-11); /* 1.3e-11 measured */
 }
 
+/* The contraction is 1 there. */
+TEST(contraction_to_the_stop) {
+  ZpActuatorDef def =
+      DEF(GIVEN, {"plate.stop_gap", 3e-6}, {"drive.voltage", 60}, {"plate.mass", 3e-9}, {"solver.end_time", 5e-5});
+  const ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  const double g = zp_result_get(result, "opening_m"), g0 = def.plate.gap, gs = def.plate.stop_gap;
+  ck_near(zp_result_get(result, "contraction"), 1 - (g - gs) / (g0 - gs), 1e-12);
+}
+
 /* Eq. (37.1): frequency without and with a voltage, which softens the spring, and of the mass of the layers. */
 TESTS(frequency, 0, 3) {
   ZpActuatorDef def = DEF(GIVEN, {"plate.mass", 3e-9}, {"modes.voltage", 0});
