@@ -768,7 +768,8 @@ TEST(bad_mixtures_are_refused) {
   refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: its unit must be one of the measured quantity, such as m");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_mm,sigma_stroke_mm\n8,2,3,0.1\n");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
-  refuse(ZP_STUDY_CALIBRATE, &one, "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, displacement");
+  refuse(ZP_STUDY_CALIBRATE, &one,
+         "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, displacement");
 }
 
 TEST(files_that_are_no_tables_are_refused) {

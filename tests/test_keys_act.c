@@ -182,7 +182,7 @@
 
 /* Rows of a record are compared with a run. */
 #define WATCHED                                                                                                        \
-  "study=calibrate actuator.kind=ribbon actuator.right_end=guided mesh.nodes=11 data.file=watched.csv "             \
+  "study=calibrate actuator.kind=ribbon actuator.right_end=guided mesh.nodes=11 data.file=watched.csv "                \
   "calibrate.fit=ribbon.young_modulus calibrate.starts=1"
 
 /* -- what they lead to ----------------------------------------------------------------------------- */

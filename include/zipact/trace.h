@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 #include <zipact/api.h>
-#include <zipact/sim.h>
 #include <zipact/model.h>
+#include <zipact/sim.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -57,9 +57,10 @@ static const OfKind of_kind[ZP_FIT_KINDS] = {
 };
 
 /* With the first, second, ... key of calibrate.fit. */
-static const char *const correlation[ZP_FIT_MOST - 1] = {
-    "#_correlation_1", "#_correlation_2", "#_correlation_3",  "#_correlation_4",  "#_correlation_5",  "#_correlation_6",
-    "#_correlation_7", "#_correlation_8", "#_correlation_9", "#_correlation_10", "#_correlation_11", "#_correlation_12"};
+static const char *const correlation[ZP_FIT_MOST - 1] = {"#_correlation_1",  "#_correlation_2",  "#_correlation_3",
+                                                         "#_correlation_4",  "#_correlation_5",  "#_correlation_6",
+                                                         "#_correlation_7",  "#_correlation_8",  "#_correlation_9",
+                                                         "#_correlation_10", "#_correlation_11", "#_correlation_12"};
 
 static bool at_bound(const ZpFit *fit, const double *z, int k) {
   static const double near = 1e-6;
@@ -303,8 +304,9 @@ static bool is_ambiguous(const ZpFit *fit, const ZpFitStarts *starts) {
 static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJudgement *judgement,
                           const ZpFitStarts *starts, ZpResult *result) {
   if (judgement->runs < 0.01)
-    zp_result_note(result, "residuals are not noise: so few runs of one sign have a probability of %.1g; the model lacks "
-                           "something, or the measurement has a drift",
+    zp_result_note(result,
+                   "residuals are not noise: so few runs of one sign have a probability of %.1g; the model lacks "
+                   "something, or the measurement has a drift",
                    judgement->runs);
   if (judgement->too_large < 0.01)
     zp_result_note(result, "residuals are larger than the standard deviations given: reduced chi-square %.3g",
@@ -336,7 +338,7 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   const double *z = best->z, *fitted = best->fitted, square = best->square;
   const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &starts) || !best->ended;
   const char *bound = name_at_bound(fit, z);
-  result->outcome = !good ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
+  result->outcome = !good      ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
                     : doubtful ? ZP_DOUBTFUL
                     : bound    ? ZP_AT_BOUND
                                : ZP_CONVERGED;

@@ -68,17 +68,17 @@ typedef struct ZpFit {
   double start[ZP_FIT_MOST];
   double first[ZP_FIT_MOST];                     /* of z: 1 of keys, 0 of shifts */
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
-  char name[ZP_FIT_MOST][64]; /* "ribbon.young_modulus", "time_offset" */
+  char name[ZP_FIT_MOST][64];                    /* "ribbon.young_modulus", "time_offset" */
   const char *unit[ZP_FIT_MOST];
   ZpFitRun *run; /* [runs] */
   size_t runs;
   ZpFitSet *set; /* [sets] */
   size_t sets, rows;
-  double *x, *y;  /* [rows] SI, one set after the other */
-  char bare[160]; /* columns without a unit in their name: "load in kg, stroke in m" */
-  char idle[200]; /* columns that are not used: "monday.csv: Date, Remark; tuesday.csv: Date" */
+  double *x, *y;    /* [rows] SI, one set after the other */
+  char bare[160];   /* columns without a unit in their name: "load in kg, stroke in m" */
+  char idle[200];   /* columns that are not used: "monday.csv: Date, Remark; tuesday.csv: Date" */
   char layout[300]; /* which lines of a file are its table, where that is not plain */
-  double *sigma;  /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
+  double *sigma;    /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   double tolerance; /* of the time steps of records, if solver.tolerance is auto; NAN: the usual one */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */
@@ -127,8 +127,8 @@ double zp_fit_square(const ZpFit *fit, const double *fitted);
 typedef struct ZpFitPoint {
   double z[ZP_FIT_MOST];
   double square;
-  bool good;   /* all rows have a value */
-  bool ended;  /* it is a minimum */
+  bool good;          /* all rows have a value */
+  bool ended;         /* it is a minimum */
   double *fitted, *J; /* [rows], [rows][n] behind them, as zp_fit_evaluate */
 } ZpFitPoint;
 
@@ -146,11 +146,11 @@ bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, doubl
  * `held` [n]: parameters that stay; NULL: none. => whether the minimum was reached. */
 bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point);
 
-/* What the starts have led to. */
+/* Minima to which several starts have led. */
 typedef struct ZpFitStarts {
-  int tried, agree; /* how many starts, and how many of them lead to the best minimum */
-  double best;      /* sum of squares there, with the time steps of the search, */
-  double next;      /* and sum of squares of the best other minimum; INFINITY: there is none */
+  int tried, agree;          /* how many starts, and how many of them lead to the best minimum */
+  double best;               /* sum of squares there, with the time steps of the search, */
+  double next;               /* and sum of squares of the best other minimum; INFINITY: there is none */
   double other[ZP_FIT_MOST]; /* z there */
 } ZpFitStarts;
 
@@ -164,13 +164,13 @@ ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **o
 /* Fitted minus measured value, divided by the standard deviation if there is one. */
 double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row);
 
-/* What residuals say about a fit. */
+/* Tests of the residuals of a fit. */
 typedef struct ZpFitJudgement {
-  double reduced;   /* chi-square over the degrees of freedom; NAN: standard deviations are not known */
-  double too_large; /* probability of a larger chi-square if model and standard deviations are true; NAN likewise */
-  double runs;      /* probability of as few runs of residuals of one sign; NAN: too few rows */
-  double variance;  /* of a weighted residual: 1 if standard deviations are known */
-  size_t outliers;  /* rows whose residual is so large that not one in twenty such fits has it, */
+  double reduced;    /* chi-square over the degrees of freedom; NAN: standard deviations are not known */
+  double too_large;  /* probability of a larger chi-square if model and standard deviations are true; NAN likewise */
+  double runs;       /* probability of as few runs of residuals of one sign; NAN: too few rows */
+  double variance;   /* of a weighted residual: 1 if standard deviations are known */
+  size_t outliers;   /* rows whose residual is so large that not one in twenty such fits has it, */
   size_t outlier[8]; /* the largest ones first */
 } ZpFitJudgement;
 

@@ -20,6 +20,7 @@ double zp_fit_student(double freedom) {
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, v = freedom;
   if (v < 1.5) return 12.706;
   if (v < 2.5) return 4.303;
+  if (v < 3.5) return 3.182;
   return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v * v) +
          (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v * v * v);
 }

@@ -209,7 +209,8 @@ static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted
   def.solver.end_time = end;
   if (status == ZP_OK) status = zp_model_create_driven(&def, record->rows > 0 ? &table : NULL, &model, NULL);
   if (status == ZP_OK)
-    status = zp_trace_create(model, signal, signals, fit->key, J ? (size_t)fit->keys : 0, end, fit->hooks, &trace, NULL);
+    status =
+        zp_trace_create(model, signal, signals, fit->key, J ? (size_t)fit->keys : 0, end, fit->hooks, &trace, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   size_t k = 0;
   for (size_t i = 0; i < fit->sets && trace; i++) {
@@ -254,8 +255,8 @@ static double slope_of(ZpFit *fit, ZpRest *rest, ZpFitKind kind, int key) {
   return status != ZP_OK ? (double)NAN : kind == ZP_FIT_OPENING ? opening : stroke;
 }
 
-/* The value of a row at rest, and its derivatives with respect to all fitted keys => row [keys]; false if one of them is
- * not available. */
+/* The value of a row at rest, and its derivatives with respect to all fitted keys => row [keys]; false if one of them
+ * is not available. */
 static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *value,
                            double *row) {
   ZpModel *model = build(fit, def);

@@ -124,8 +124,7 @@ static int usual_x(const ZpData *data) {
 
 static void take_usual_y(const ZpData *data, Measured *measured) {
   for (int column = 0; column < (int)data->columns && measured->columns < NAMES_MOST; column++)
-    if (measured->is_record ? is_of_run(data->cell[column]) : column == 1)
-      measured->y[measured->columns++] = column;
+    if (measured->is_record ? is_of_run(data->cell[column]) : column == 1) measured->y[measured->columns++] = column;
 }
 
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
@@ -285,8 +284,8 @@ static ZpStatus read_condition(ZpFit *fit, ZpFitRun *run, const ZpData *data, in
                        data->path, zp_data_line(data, i), data->cell[column]);
   for (int i = 0; i < run->keys && status == ZP_OK; i++)
     if (run->key[i] == key)
-      status = zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well",
-                       data->cell[column], ZP_KEY_NAME(key));
+      status = zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", data->cell[column],
+                       ZP_KEY_NAME(key));
   if (status == ZP_OK && run->keys == ZP_FIT_OTHERS)
     status = zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
   if (status == ZP_OK) status = fail_fitted(fit, key, data->cell[column], err);
@@ -298,7 +297,7 @@ static ZpStatus read_condition(ZpFit *fit, ZpFitRun *run, const ZpData *data, in
   return status;
 }
 
-/* What drove a record, and its conditions. */
+/* The voltage of a record, and its conditions. */
 static ZpStatus read_run(ZpFit *fit, const Measured *measured, ZpError *err) {
   ZpFitRun *run = &fit->run[measured->run];
   const ZpData *data = measured->data;
@@ -413,10 +412,11 @@ static ZpStatus read_sigma_of(Reading *r, char *part) {
   const char *name = zp_trim(part), *text = zp_trim(equals + 1);
   const int kind = kind_called(name);
   if (kind == ZP_FIT_KINDS)
-    return zp_fail(r->err, ZP_BAD_INPUT,
-                   "calibrate.sigma: %.60s: takes stroke, displacement, opening, capacitance, current, force, zip_time, "
-                   "pull_in_voltage, release_voltage or frequency",
-                   name);
+    return zp_fail(
+        r->err, ZP_BAD_INPUT,
+        "calibrate.sigma: %.60s: takes stroke, displacement, opening, capacitance, current, force, zip_time, "
+        "pull_in_voltage, release_voltage or frequency",
+        name);
   const char *unit = zp_fit_number[kind].unit;
   ZpStatus status = zp_quantity_read(text, unit, &r->sigma[kind], &reason);
   if (status == ZP_OK && !(r->sigma[kind] > 0 && isfinite(r->sigma[kind])))
@@ -559,7 +559,8 @@ static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, ZpUnitScale *
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     const ZpFitNumber *of = &zp_fit_number[kind];
     set->kind = (ZpFitKind)kind;
-    if (is_possible(set->x_key < 0, set->x_key, set->kind) && take_unit(fit, name, of->column, of->unit, scale)) return true;
+    if (is_possible(set->x_key < 0, set->x_key, set->kind) && take_unit(fit, name, of->column, of->unit, scale))
+      return true;
   }
   return false;
 }
@@ -642,7 +643,8 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
 /* -- shifts ---------------------------------------------------------------------------------------- */
 
 static ZpStatus add_shift(ZpFit *fit, const char *name, const char *unit, double size, int *place, ZpError *err) {
-  if (fit->n - fit->keys == ZP_FIT_SHIFTS) return zp_fail(err, ZP_BAD_INPUT, "calibrate.offsets: more than %d shifts", ZP_FIT_SHIFTS);
+  if (fit->n - fit->keys == ZP_FIT_SHIFTS)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.offsets: more than %d shifts", ZP_FIT_SHIFTS);
   snprintf(fit->name[fit->n], sizeof fit->name[0], "%s", name);
   fit->unit[fit->n] = unit;
   fit->start[fit->n] = size;
@@ -755,8 +757,7 @@ static void note_layout(ZpFit *fit, const Measured *measured) {
   const size_t used = strlen(fit->layout);
   char text[160];
   zp_data_describe(measured->data, text, sizeof text);
-  if (*text)
-    snprintf(fit->layout + used, sizeof fit->layout - used, "%s%.60s: %s", used ? "; " : "", file, text);
+  if (*text) snprintf(fit->layout + used, sizeof fit->layout - used, "%s%.60s: %s", used ? "; " : "", file, text);
 }
 
 static ZpStatus read_files(Reading *r) {

@@ -10,10 +10,8 @@
 #include "io/range.h"
 
 const ZpFitNumber zp_fit_number[ZP_FIT_KINDS] = {
-    [ZP_FIT_STROKE] = {"stroke", "m", 0, NULL, true},
-    [ZP_FIT_DISPLACEMENT] = {"displacement", "m", 0, NULL, true},
-    [ZP_FIT_OPENING] = {"opening", "m", 0, NULL, true},
-    [ZP_FIT_CAPACITANCE] = {"capacitance", "F", 0, NULL, false},
+    [ZP_FIT_STROKE] = {"stroke", "m", 0, NULL, true},    [ZP_FIT_DISPLACEMENT] = {"displacement", "m", 0, NULL, true},
+    [ZP_FIT_OPENING] = {"opening", "m", 0, NULL, true},  [ZP_FIT_CAPACITANCE] = {"capacitance", "F", 0, NULL, false},
     [ZP_FIT_CURRENT] = {"current", "A", 0, NULL, false},
 #define ZP_MEASURED(enumerator, kind, column, unit, scalar, has_slopes)                                                \
   [kind] = {column, unit, enumerator, scalar, has_slopes},

@@ -259,8 +259,8 @@ static bool point_is_noise(ZpFit *fit, const Start *start, int count, ZpFitPoint
   return zp_fit_is_noise(&judgement);
 }
 
-/* Descend from the given values, then from the others, the most promising first, until two of three or more agree on the
- * best, and its residuals are noise. */
+/* Descend from the given values, then from the others, the most promising first, until two of three or more agree on
+ * the best, and its residuals are noise. */
 static int descend_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   enum { SCOUT = 20, LEAST = 3 };
   int tried = 0;

@@ -369,8 +369,8 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
     if (column < 0) continue;
     const char *unit = strrchr(files->file[i].cell[column], '_');
     if (!whole && differ_in_unit(&files->file[i], files->file[i].cell[column], ours))
-      return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.60s = %.60s: in %.200s the unit of that column is %.20s", theirs,
-                     ours, files->file[i].path, unit + 1);
+      return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.60s = %.60s: in %.200s the unit of that column is %.20s",
+                     theirs, ours, files->file[i].path, unit + 1);
     files->file[i].cell[column] = ours;
   }
   return found ? ZP_OK : fail_renaming(files, theirs, err);

@@ -10,21 +10,21 @@
 /* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # are ignored, as are
  * lines of an instrument before the names and after the numbers. The separator is semicolon, tab or comma; if it is not
  * a comma, numbers may have a decimal comma, and points between thousands. Cells may be quoted. A name "Load (g)",
- * "Load [g]", "Load/g", "Load, g" or "Load in g" becomes "Load_g", "pull-in_voltage_V" pull_in_voltage_V; a row of units
- * below the names gives each name its unit. */
+ * "Load [g]", "Load/g", "Load, g" or "Load in g" becomes "Load_g", "pull-in_voltage_V" pull_in_voltage_V; a row of
+ * units below the names gives each name its unit. */
 typedef struct ZpData {
   const char *key;  /* key that names the file, for messages */
   const char *path; /* path of the file */
   size_t columns, rows;
   char separator;
-  char grouped; /* between thousands; 0: nothing */
-  bool units;   /* a line of units follows the names */
-  char **cell; /* [1 + rows][columns]; row 0 has the names */
-  char **name; /* [columns] the names as the file has them */
-  int *line;   /* [1 + rows] from 1 */
-  char *text;  /* text to which the cells point */
-  char *names; /* text to which the names as in the file point, */
-  char *plain; /* and text of those with units of a line of their own */
+  char grouped;         /* between thousands; 0: nothing */
+  bool units;           /* a line of units follows the names */
+  char **cell;          /* [1 + rows][columns]; row 0 has the names */
+  char **name;          /* [columns] the names as the file has them */
+  int *line;            /* [1 + rows] from 1 */
+  char *text;           /* text to which the cells point */
+  char *names;          /* text to which the names as in the file point, */
+  char *plain;          /* and text of those with units of a line of their own */
   size_t before, after; /* lines with text that do not belong to the table */
 } ZpData;
 
@@ -50,8 +50,8 @@ int zp_data_column(const ZpData *data, const char *name);
 /* The line number of a row (from 0) in its file. */
 int zp_data_line(const ZpData *data, size_t row);
 
-/* What of the file is the table, "names in line 3, units in line 4, 250 rows from line 5"; empty if it begins with its
- * names, which have their units. */
+/* Lines of the file that are the table, "names in line 3, units in line 4, 250 rows from line 5"; empty if it begins
+ * with its names, which have their units. */
 void zp_data_describe(const ZpData *data, char *text, size_t size);
 
 /* Are the numbers of a column times of day, such as 12:03:04.250? */

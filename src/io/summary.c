@@ -60,8 +60,8 @@ static void close_groups(ZpJson *json, Open *open, const char *name) {
   }
 }
 
-/* Both ends of an interval are scalars, so that a sweep has columns, but an array in JSON: "#_interval_95_low" is followed
- * by "#_interval_95_high". */
+/* Both ends of an interval are scalars, so that a sweep has columns, but an array in JSON: "#_interval_95_low" is
+ * followed by "#_interval_95_high". */
 static const char low_end[] = "_low", high_end[] = "_high", interval[] = "_interval_95";
 
 static bool ends_with(const char *name, const char *end) {

@@ -161,9 +161,9 @@ struct ZpSim {
   struct ZpRunSensitivity *rates; /* derivatives of the run; NULL: none */
   void (*stepped)(ZpSim *sim, void *user); /* called after each step, with its user; NULL: none */
   void *stepped_user;
-  ZpLiquidRoom liquid;            /* of the liquid that zp_sim_liquid returns */
-  ZpManyShapes all;               /* of the uppermost member of a series: arrays for the shape of all members */
-  void *all_memory;               /* memory of these arrays */
+  ZpLiquidRoom liquid; /* of the liquid that zp_sim_liquid returns */
+  ZpManyShapes all;    /* of the uppermost member of a series: arrays for the shape of all members */
+  void *all_memory;    /* memory of these arrays */
 };
 
 /* The next member on the port of one, as a number after its own: 0: none. The first member of all; on a port. */

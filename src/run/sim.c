@@ -17,9 +17,9 @@
 #include "run/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",      "zipped",      "interrupted", "not_settled", "diverged",
-                                      "step_limit",    "converged",   "followed",    "branch_lost", "bad_argument",
-                                      "short_circuit", "pulled_in",   "event",       "at_bound",    "time_limit",
+  static const char *const names[] = {"end_time",      "zipped",       "interrupted", "not_settled", "diverged",
+                                      "step_limit",    "converged",    "followed",    "branch_lost", "bad_argument",
+                                      "short_circuit", "pulled_in",    "event",       "at_bound",    "time_limit",
                                       "reopened",      "beyond_model", "doubtful"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";

@@ -74,8 +74,7 @@ static ZpStatus check(const char *const *signal, size_t signals, size_t keys, do
     return zp_fail(err, ZP_BAD_INPUT, "a trace has 1 to %d signals, at most %d keys, and ends after 0 s",
                    ZP_TRACE_SIGNALS, ZP_TRACE_KEYS);
   for (size_t s = 0; s < signals; s++)
-    if (zp_signal_find(signal[s]) < 0)
-      return zp_fail(err, ZP_BAD_INPUT, "%.60s: no such signal", signal[s]);
+    if (zp_signal_find(signal[s]) < 0) return zp_fail(err, ZP_BAD_INPUT, "%.60s: no such signal", signal[s]);
   return ZP_OK;
 }
 

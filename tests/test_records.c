@@ -1,0 +1,124 @@
+/* Records over time in study calibrate: what drove them, their shifts, intervals of the keys, and whether residuals are
+ * noise. */
+#include "data_util.h"
+
+#include "fit/fit.h"
+
+enum { FRAMES = 60 };
+
+static const double late = 4e-3, zero = 2e-4, end = 0.12; /* s, m, s */
+
+/* An actuator without liquid, at a coarse mesh. */
+static ZpActuatorDef recorded(const char *keys) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 11;
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.output.errors = false;
+  def.solver.tolerance = 1e-5;
+  snprintf(def.data.file, sizeof def.data.file, "record.csv");
+  snprintf(def.calibrate.fit, sizeof def.calibrate.fit, "%s", keys);
+  return def;
+}
+
+static double voltage_at(double t) {
+  return t < 0.01 ? 0 : t < 0.02 ? 8e5 * (t - 0.01) : 8e3;
+}
+
+/* A record of its displacements under a voltage that it has, with shifts and an error that alternates, +-. */
+static void write_record(const ZpActuatorDef *truth, double load, double noise) {
+  ZpActuatorDef def = *truth;
+  double time[FRAMES], voltage[FRAMES];
+  for (int i = 0; i < FRAMES; i++)
+    time[i] = end * i / (FRAMES - 1), voltage[i] = voltage_at(time[i]);
+  const ZpDriveTable table = {FRAMES, time, voltage};
+  const char *stroke = "stroke";
+  ZpModel *model;
+  ZpTrace *trace;
+  ZpError err;
+  def.drive.waveform = ZP_WAVEFORM_TABLE;
+  def.load.mass = load;
+  ck_assert_int_eq(zp_model_create_driven(&def, &table, &model, &err), ZP_OK);
+  ck_assert_int_eq(zp_trace_create(model, &stroke, 1, NULL, 0, end, NULL, &trace, &err), ZP_OK);
+  FILE *file = fopen("record.csv", "w");
+  fprintf(file, "Time (ms);Voltage [kV];Load [g];Displacement / mm\n");
+  const double start = zp_trace_at(trace, 0, 0).value;
+  for (int i = 0; i < FRAMES; i++) {
+    const double moved = start - zp_trace_at(trace, 0, time[i] - late).value;
+    fprintf(file, "%.17g;%.17g;%.17g;%.17g\n", 1e3 * time[i], 1e-3 * voltage[i], 1e3 * load,
+            1e3 * (moved + zero + (i % 2 ? noise : -noise)));
+  }
+  ck_assert_int_eq(fclose(file), 0);
+  zp_trace_destroy(trace);
+  zp_model_destroy(model);
+}
+
+/* Modulus and shifts are found again from other values, and nothing else is asked of the file. */
+TEST(record_has_all_that_a_run_needs) {
+  ZpActuatorDef def = recorded("ribbon.young_modulus"), truth = def;
+  truth.ribbon.young_modulus = 180e9;
+  snprintf(def.calibrate.offsets, sizeof def.calibrate.offsets, "time; displacement");
+  write_record(&truth, 9e-3, 0);
+  const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
+  printf("modulus %.6g, late %.6g, zero %.6g, rms %.2g\n", zp_result_get(result, "ribbon.young_modulus"),
+         zp_result_get(result, "time_offset"), zp_result_get(result, "displacement_offset"),
+         zp_result_get(result, "residual_rms_m"));
+  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-5);
+  ck_near(zp_result_get(result, "time_offset"), late, 1e-4);
+  ck_near(zp_result_get(result, "displacement_offset"), zero, 1e-3);
+}
+
+/* Rows that calibrate.skip_until and skip_after leave out do not count. */
+TEST(rows_are_skipped) {
+  ZpActuatorDef def = recorded("");
+  write_record(&def, 9e-3, 0);
+  def.calibrate.skip_until = 0.03;
+  def.calibrate.skip_after = 0.06;
+  size_t rows = 0;
+  for (int i = 0; i < FRAMES; i++) {
+    const double t = end * i / (FRAMES - 1);
+    rows += t >= 0.03 && t <= 0.06;
+  }
+  ck_assert_double_eq(zp_result_get(data_study_of(ZP_STUDY_CALIBRATE, &def), "data_rows"), (double)rows);
+}
+
+/* Of a nearly linear fit an interval is Student's t standard errors to each side. */
+TEST(interval_of_a_linear_fit) {
+  ZpActuatorDef def = recorded("ribbon.young_modulus");
+  def.calibrate.starts = 1;
+  snprintf(def.calibrate.offsets, sizeof def.calibrate.offsets, "time; displacement");
+  write_record(&def, 9e-3, 1e-6);
+  const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
+  const double value = zp_result_get(result, "ribbon.young_modulus"),
+               part = zp_fit_student(FRAMES - 3) * zp_result_get(result, "ribbon.young_modulus_standard_error");
+  printf("%g: %g, %g over %g\n", value, zp_result_get(result, "ribbon.young_modulus_interval_95_low") - value,
+         zp_result_get(result, "ribbon.young_modulus_interval_95_high") - value, part);
+  ck_near(value - zp_result_get(result, "ribbon.young_modulus_interval_95_low"), part, 0.03);
+  ck_near(zp_result_get(result, "ribbon.young_modulus_interval_95_high") - value, part, 0.03);
+}
+
+/* Student's distribution, of tables. */
+TEST(student_is_that_of_tables) {
+  static const double table[][2] = {{1, 12.706}, {2, 4.303},  {3, 3.182},  {5, 2.571},
+                                    {10, 2.228}, {30, 2.042}, {1e9, 1.960}};
+  for (size_t k = 0; k < LENGTH_OF(table); k++)
+    ck_near(zp_fit_student(table[k][0]), table[k][1], 4e-3);
+}
+
+/* Eight positive residuals, then eight negative ones: two runs, where noise has 9 of variance 56/15, (12.5); and signs
+ * that alternate. */
+TEST(runs_of_one_sign_are_no_noise) {
+  enum { ROWS = 16 };
+  double y[ROWS] = {0}, fitted[ROWS], x[ROWS] = {0};
+  ZpFitSet set = {.rows = ROWS};
+  ZpFit fit = {.n = 1, .rows = ROWS, .sets = 1, .set = &set, .x = x, .y = y};
+  ZpFitPoint best = {.square = ROWS, .fitted = fitted};
+  for (int i = 0; i < ROWS; i++)
+    fitted[i] = i < ROWS / 2 ? 1 : -1;
+  ZpFitJudgement judgement = zp_fit_judge(&fit, &best);
+  ck_near(judgement.runs, 0.5 * erfc((9 - 0.5 - 2) / sqrt(2 * 56.0 / 15)), 1e-12);
+  ck_assert(!zp_fit_is_noise(&judgement));
+  for (int i = 0; i < ROWS; i++)
+    fitted[i] = i % 2 ? 1 : -1;
+  judgement = zp_fit_judge(&fit, &best);
+  ck_assert(zp_fit_is_noise(&judgement));
+}
