@@ -293,16 +293,23 @@ static void say(const ZpFit *fit, const double *fitted, const char *bound, doubl
              sqrt(square / (double)fit->rows), at, bound ? bound : "");
 }
 
-/* Is another minimum as good as the best one, as far as the data say? */
-static bool is_ambiguous(const ZpFit *fit, const ZpFitStarts *starts) {
+/* Does a point lie beyond the interval of a key? */
+static bool is_beyond(const ZpFit *fit, const double *z, const ZpFitInterval *interval) {
+  for (int k = 0; k < fit->keys; k++)
+    if (z[k] < interval[k].low || z[k] > interval[k].high) return true;
+  return false;
+}
+
+/* Is another minimum, beyond the intervals of the best one, as good as that, as far as the data say? */
+static bool is_ambiguous(const ZpFit *fit, const ZpFitStarts *starts, const ZpFitInterval *interval) {
   const double freedom = (double)fit->rows - fit->n, t = zp_fit_student(freedom);
   const double variance = fit->sigma ? 1 : starts->best / freedom;
-  return fit->n > 0 && starts->next - starts->best < t * t * variance;
+  return fit->n > 0 && starts->next - starts->best < t * t * variance && is_beyond(fit, starts->other, interval);
 }
 
 /* Why a fit is doubtful. */
 static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJudgement *judgement,
-                          const ZpFitStarts *starts, ZpResult *result) {
+                          const ZpFitStarts *starts, const ZpFitInterval *interval, ZpResult *result) {
   if (judgement->runs < 0.01)
     zp_result_note(result,
                    "residuals are not noise: so few runs of one sign have a probability of %.1g; the model lacks "
@@ -312,7 +319,7 @@ static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJ
     zp_result_note(result, "residuals are larger than the standard deviations given: reduced chi-square %.3g",
                    judgement->reduced);
   if (!best->ended) zp_result_note(result, "the search ended before the minimum");
-  if (is_ambiguous(fit, starts)) {
+  if (is_ambiguous(fit, starts, interval)) {
     char text[256] = "";
     for (int k = 0; k < fit->keys; k++) {
       const size_t used = strlen(text);
@@ -332,11 +339,13 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   if (fit->status != ZP_OK) return fit->status;
   ZpFitJudgement judgement = zp_fit_judge(fit, best);
   ZpFitInterval interval[ZP_FIT_MOST];
+  for (int k = 0; k < ZP_FIT_MOST; k++)
+    interval[k] = (ZpFitInterval){NAN, NAN, -1};
   if (good) zp_fit_intervals(fit, judgement.variance, best, interval);
   if (good) judgement = zp_fit_judge(fit, best);
   if (fit->status != ZP_OK) return fit->status;
   const double *z = best->z, *fitted = best->fitted, square = best->square;
-  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &starts) || !best->ended;
+  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &starts, interval) || !best->ended;
   const char *bound = name_at_bound(fit, z);
   result->outcome = !good      ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
                     : doubtful ? ZP_DOUBTFUL
@@ -348,7 +357,7 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
   report_keys(fit, z, good ? best->J : NULL, &judgement, interval, result);
-  report_doubts(fit, best, &judgement, &starts, result);
+  report_doubts(fit, best, &judgement, &starts, interval, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   const ZpFitSet *times = last_set(fit, ZP_FIT_TIME);
   if (good && times && note_pull_in(fit, times, z, result) != ZP_OK) return zp_fail_memory(err);

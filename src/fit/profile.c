@@ -130,8 +130,6 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
   static const double normal = 1.959963984540054;
   const double freedom = (double)fit->rows - fit->n, t = fit->sigma ? normal : zp_fit_student(freedom);
   Profile p = {.fit = fit, .best = best, .rise = t * t * variance};
-  for (int k = 0; k < fit->n; k++)
-    interval[k] = (ZpFitInterval){NAN, NAN, -1};
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
   for (int k = 0; k < MOST && !find_all(&p, interval); k++)
     go_to_better(&p);
