@@ -85,10 +85,7 @@ static bool is_number(const char *cell, char separator) {
 bool zp_is_unit(const char *text) {
   static const char *const of[] = {"s",   "m", "V",    "kg",   "N",     "F",   "A",   "Hz",  "Pa",
                                    "rad", "1", "m2/s", "Pa s", "kg/m3", "N/m", "V/m", "1/m", "m3"};
-  static const char *const others[] = {"%", "C", "K",
-                                       "\xC2\xB0"
-                                       "C",
-                                       "\xC2\xB0"};
+  static const char *const others[] = {"%", "C", "K", "\302\260C", "\302\260"};
   ZpUnitScale scale;
   for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
     if (strcmp(text, others[i]) == 0) return true;
