@@ -84,11 +84,24 @@ static void print_interval(const ZpResult *result, const char *key_name, int key
   }
 }
 
+/* Print a fitted shift, "time_offset" or "stroke_offset_2", with its standard error. => is `scalar` one? */
+static bool print_shift(const ZpResult *result, const ZpScalar *scalar) {
+  const char *end = strstr(scalar->name, "_offset");
+  char name[128];
+  if (!end || strspn(end + strlen("_offset"), "_0123456789") != strlen(end + strlen("_offset"))) return false;
+  snprintf(name, sizeof name, "%s_standard_error", scalar->name);
+  const double error = zp_result_get(result, name);
+  printf("  %-26s %12.6g %s", scalar->name, scalar->value, scalar->unit);
+  if (!isnan(error)) printf("  +- %.2g %s", error, scalar->unit);
+  printf("\n");
+  return true;
+}
+
 /* Print a fitted key with its standard error. => is `scalar` one? */
 static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   const int key = zp_key_find(scalar->name);
   char name[128];
-  if (key < 0 || strstr(scalar->name, "_interval_95")) return false;
+  if (key < 0) return print_shift(result, scalar);
   snprintf(name, sizeof name, "%s_standard_error", scalar->name);
   const double error = zp_result_get(result, name);
   printf("  %-26s ", scalar->name);

@@ -633,8 +633,8 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
     if (status == ZP_OK && measured->is_record) skip_rows(fit, set);
     if (status == ZP_OK && set->rows == 0)
       status = zp_fail(r->err, ZP_BAD_INPUT,
-                       "%.200s: no row is between calibrate.skip_until = %g s and calibrate.skip_after = %g s",
-                       measured->data->path, fit->def->calibrate.skip_until, fit->def->calibrate.skip_after);
+                       "%.200s: calibrate.skip_until and calibrate.skip_after leave no row",
+                       measured->data->path);
     fit->rows += set->rows;
   }
   return status;
