@@ -946,8 +946,8 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
 }
 
 #ifndef ZP_WITHOUT_FIELD
-/* The cross-section of a ribbon, or of a rigid plate, over a counter electrode. Bare metals are followed down to a tenth
- * of their gap, far beyond pull-in. */
+/* The cross-section of a ribbon, or of a rigid plate, over a counter electrode. Bare metals are followed down to a
+ * tenth of their gap, far beyond pull-in. */
 static void put_over_plate(const ZpModel *model, ZpEdgeParams *params) {
   static const double tenth = 0.1;
   const ZpActuatorDef lower = zp_def_lower(&model->def);

@@ -34,6 +34,13 @@ ZP_INLINE bool find_face(const ZpLeakParams *p, const ZpPlatesParams *plates, co
   face->g1 = zp_plates_place_gap(&place, end), face->length1 = zp_plates_place_length(&place, end);
   face->g0 = start == end ? face->g1 : zp_plates_place_gap(&place, start);
   face->length0 = start == end ? face->length1 : zp_plates_place_length(&place, start);
+  face->part = 1;
+  if (place.wet < 1 && plates->air->relative == 0) { /* no electrodes, so no charges, beyond their end */
+    face->part = place.wet;
+    if (place.wet == 0) return false;
+    face->length0 *= place.wet, face->length1 *= place.wet;
+    place.wet = 1;
+  }
   const ZpLeakSide liquid = {plates, place.wet, p->discharge}, air = {plates->air, 1 - place.wet, 0};
   face->sides = place.wet > 0 && place.wet < 1 ? 2 : 1;
   face->side[0] = place.wet > 0 ? liquid : air;
@@ -216,7 +223,10 @@ void zp_leak_step(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpL
   for (size_t k = 0; k < places(plates); k++) {
     ZpLeakFace *face = &e->face[e->faces];
     double Z0 = e->Z[k] = step->Z[k];
-    if (!find_face(p, plates, step->start, step->end, k, face)) continue;
+    if (!find_face(p, plates, step->start, step->end, k, face)) {
+      e->piece[k] = (ZpPlatesMean){0};
+      continue;
+    }
     double Y = face->sides == 1 ? end_of(p, step, Z0, 1, face) : end_of(p, step, Z0, 2, face);
     if (step->h > 0) e->Z[k] = Y - step->U1;
     e->faces++;
@@ -224,6 +234,11 @@ void zp_leak_step(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpL
 }
 
 /* -- forces ---------------------------------------------------------------------------------------- */
+
+/* Of a place, what belongs to its electrodes. */
+ZP_INLINE ZpPlatesMean part_of(const ZpLeakFace *face, ZpPlatesMean of) {
+  return (ZpPlatesMean){face->part * of.W, face->part * of.slope, face->part * of.P, face->part * of.W1};
+}
 
 /* Contribution of the interface charge to the potential, J/m: eq. (25.4). */
 ZP_INLINE double of_interface(const ZpLeakParams *p, double U, double Z) {
@@ -237,7 +252,7 @@ void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const Z
     ZpPlatesMean piece = between(face, step->U0 + Z0, Y1, face->g0, face->g1);
     piece.slope += between_by_voltage(face, Y1, face->g0, face->g1).W * face->by_gap;
     piece.P += 0.5 * (of_interface(p, step->U0, Z0) + of_interface(p, step->U1, Z1));
-    e->piece[face->place] = piece;
+    e->piece[face->place] = part_of(face, piece);
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, forces);
 }
@@ -271,13 +286,13 @@ void zp_leak_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, con
   by->capacitance = 0;
   for (const ZpLeakFace *face = e->face; face < end; face++) {
     double Z = e->Z[face->place], by_U = face->by_voltage;
-    e->piece[face->place] = force_by_voltage(p, face, U, Z);
+    e->piece[face->place] = part_of(face, force_by_voltage(p, face, U, Z));
     by->capacitance +=
         face->length1 * (capacitance_of(face, U + Z, face->g1) * by_U - C * (by_U - 1) + face->passed.by_voltage);
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, &forces);
   for (const ZpLeakFace *face = e->face; face < end; face++)
-    e->piece[face->place] = charge_piece(p, face, U, e->Z[face->place]);
+    e->piece[face->place] = part_of(face, charge_piece(p, face, U, e->Z[face->place]));
   zp_plates_step_of(plates, e->piece, step->end, step->end, &charges);
 }
 

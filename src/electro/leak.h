@@ -36,6 +36,7 @@ typedef struct ZpLeakFace {
   int sides;
   ZpLeakSide side[2];
   double wet;                /* share of the place that liquid covers */
+  double part;               /* and that has electrodes: 1, of a pouch less where they end */
   double g0, g1;             /* gaps at both ends, m */
   double length0, length1;   /* and lengths, m */
   double by_gap, by_voltage; /* how U + Z at the end goes with gap, V/m, and voltage there */

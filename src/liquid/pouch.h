@@ -15,9 +15,10 @@ typedef struct ZpPouchParams {
   double length;    /* of a film, m */
 } ZpPouchParams;
 
-/* Modulus with which the volume is held while a pressure is sought, far stiffer than any liquid, Pa, eq. (40.6). What
- * is found does not depend on it. */
-static const double zp_pouch_modulus = 1e11;
+/* Moduli with which the volume is held, far stiffer than any liquid, Pa, eq. (40.6): while a pressure is sought at
+ * rest, where what is found does not depend on it; over a step, whose pressure is that of the last one but for a change
+ * of the volume by 1e-10 of it. */
+static const double zp_pouch_modulus = 1e11, zp_pouch_modulus_of_step = 1e13;
 
 /* Half opening angle of an arc of `length` which, with its mirror image, encloses `area`, eq. (40.1); area up to
  * length^2 / pi: a circle, pi/2. rad */

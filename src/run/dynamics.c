@@ -509,19 +509,9 @@ static void release_cavities(ZpDynamics *d) {
     if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
 }
 
-/* The search for the pressure of a pouch starts from that of the last step; a neighbouring simulation takes that of the
- * simulation beside it. */
+/* The pressure of a pouch is counted from that of the last step. */
 static void start_pressure(const ZpDynamics *d, ZpMovingMember *m) {
-  m->pressure = d->lead ? d->lead->member[m - d->member].pressure : zp_memory_pressure(m->model, span_of(d, m).memory);
-}
-
-static void corrected(void *self, const double *x) {
-  ZpDynamics *d = self;
-  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
-    if (zp_pouch_rank(m->model) == 0) continue;
-    zp_assembly_changes(&m->assembly, x, m->moved);
-    m->pressure = zp_pouch_predicted(m->model, m->end, &m->eval, m->moved, 1);
-  }
+  m->pressure = zp_memory_pressure(m->model, span_of(d, m).memory);
 }
 
 static void attempt(void *self, double *q1) {
@@ -913,7 +903,6 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .attempt = attempt,
                             .resolved = resolved,
                             .overlooks = in_plane(d) || creeps(d) ? overlooks : NULL,
-                            .corrected = zp_pouch_rank(d->member->model) > 0 ? corrected : NULL,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }

@@ -50,8 +50,7 @@ static double height_of(const ZpSim *first, size_t body) {
   if (network->body[body].held) return network->body[body].y;
   const ZpSight at = zp_sight_of_body(first->model, body);
   const ZpSim *leader = first + at.member;
-  return at.origin +
-         at.sign * *zp_coordinate(leader->model, zp_state_q(leader->model, leader->state), at.coordinate);
+  return at.origin + at.sign * *zp_coordinate(leader->model, zp_state_q(leader->model, leader->state), at.coordinate);
 }
 
 ZpPose zp_sim_place(const ZpSim *first, size_t body) {

@@ -23,6 +23,10 @@ size_t zp_pouch_rank(const ZpModel *model) {
   return acts(model);
 }
 
+static double modulus_of(const ZpSpan *span) {
+  return zp_span_is_still(span) ? zp_pouch_modulus : zp_pouch_modulus_of_step;
+}
+
 double zp_memory_pressure(const ZpModel *model, const double *memory) {
   return acts(model) ? *zp_law_memory(model, &zp_term_pouch, memory) : 0;
 }
@@ -52,7 +56,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpPouchParams *pouch = &model->pouch;
   double V = zp_pouch_volume(pouch, model->nodes, zp_nodes(model, span->end).x, e->plates.gap);
   find_rates(model, span, e);
-  e->pressure = span->pressure - zp_pouch_modulus * (V / pouch->volume - 1);
+  e->pressure = span->pressure - modulus_of(span) * (V / pouch->volume - 1);
   for (size_t k = 0; k < zp_coordinates(model); k++)
     F[k] += e->pressure * e->by_volume[k];
   e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
@@ -84,7 +88,7 @@ static void bend(const ZpModel *model, double pressure, const ZpAssembly *a, ZpB
 
 /* The pressure follows the volume at the end: a term of rank one. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
-  const double k = zp_pouch_modulus / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
+  const double k = modulus_of(span) / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
   double *u = zp_band_term(K, K->u, K->rank - 1), *v = zp_band_term(K, K->v, K->rank - 1);
   bend(model, both * span->pressure, a, K);
   for (size_t i = 0; i < model->nodes; i++) {
