@@ -300,11 +300,12 @@ static double lost_energy(const ZpActuatorDef *def) {
 
 /* In oil and without liquid, of one and of several in series, behind a supply. */
 TESTS(energy_is_kept, 0, 4) {
+  static const double allowed[] = {1.2e-9, 4.8e-7, 1.7e-9, 6.2e-10}; /* 4e-10, 1.6e-7, 5.7e-10, 2.1e-10 measured */
   ZpActuatorDef def = DEF(POUCH, {"solver.end_time", 5e-3});
   if (_i == 1) def.liquid.model = ZP_LIQUID_NONE, def.solver.end_time = 1e-3;
   if (_i == 2) def.pouch.count = 5;
   if (_i == 3) def.source.model = ZP_SOURCE_AMPLIFIER, def.source.current_limit = 1e-3;
-  ck_below(lost_energy(&def), _i == 1 ? 4.8e-7 : 1.7e-9); /* 1.6e-7; 5.7e-10 measured */
+  ck_below(lost_energy(&def), allowed[_i]);
 }
 
 /* The zipped length is told as a share of that of the electrodes. */
@@ -319,7 +320,7 @@ TEST(contraction_is_zipped_length) {
 TEST(pressure_at_the_start) {
   ZpActuatorDef def = DEF(POUCH);
   ck_near(settled_value(&def, "pressure"), answered_value(ZP_STUDY_STATIONARY, &def, "pressure_Pa"),
-          2.4e-7); /* 8.2e-8 measured */
+          6.2e-8); /* 2e-8 measured */
 }
 
 /* The film up to the middle plane, at half of the gaps, flows half as much as the whole under the same heads. */
@@ -484,7 +485,7 @@ TESTS(force_by_keys, 0, 4) {
     ck_assert_int_eq(zp_def_set(&def, key, value + (k ? by : -by), NULL), ZP_OK);
     force[k] = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   }
-  ck_near(rate, (force[1] - force[0]) / (2 * by), 6e-6);
+  ck_near(rate, (force[1] - force[0]) / (2 * by), 2.1e-6); /* 6.8e-7 measured */
 }
 
 /* Of several in series, whose load weighs on each, though to one of them it is heavier. */
@@ -618,13 +619,14 @@ TESTS(held_body_is_a_held_end, 0, 2) {
 /* A chain with a spring, and one against another, behind films that have weight. */
 TESTS(energy_of_members_is_kept, 0, 3) {
   static const char *const of[] = {below, on_a_spring, opposed};
+  static const double allowed[] = {8.7e-9, 2.4e-8, 5.2e-8}; /* 2.9e-9, 8e-9, 1.8e-8 measured */
   ZpActuatorDef def = pouches(of[_i]);
   def.ribbon.density = 1390;
   def.drive.waveform = ZP_WAVEFORM_STEP;
   def.drive.rise_time = zp_actuator_def_default().drive.rise_time;
   def.solver.time_step = NAN;
   def.solver.end_time = 2e-3;
-  ck_below(lost_energy(&def), 5.2e-8); /* 1.8e-8 measured */
+  ck_below(lost_energy(&def), allowed[_i]);
 }
 
 /* Derivatives at rest by keys of a body and a spring are those of differences. */

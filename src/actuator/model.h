@@ -500,16 +500,20 @@ static inline double zp_last_gap_rate(const ZpModel *model, const double *y, con
   return zp_parting(&model->topology, v, zp_widest_station(model, y));
 }
 
-/* How far its ends, or its faces, are apart, m: the opening of a pair; under a counter electrode the last gap; along a
- * pouch, or of a ribbon without electrodes, how far the load hangs. (changes of all nodes) => its own. */
+/* Along a pouch, and of a ribbon without electrodes, the load tells how far the ends are apart. */
+static inline bool zp_spreads_by_load(const ZpModel *model) {
+  return model->topology.along || !model->field;
+}
+
+/* How far its ends, or its faces, are apart, m: how far the load hangs, where it tells; the opening of a pair; under a
+ * counter electrode the last gap. (changes of all nodes) => its own. */
 static inline double zp_spread(const ZpModel *model, ZpNodes nodes) {
-  bool hangs = model->topology.along || !model->field;
-  return hangs ? zp_hangs_by(&model->topology, nodes) : zp_last_gap(model, nodes.y);
+  return zp_spreads_by_load(model) ? zp_hangs_by(&model->topology, nodes) : zp_last_gap(model, nodes.y);
 }
 
 static inline double zp_spread_change(const ZpModel *model, ZpNodes changes) {
-  bool hangs = model->topology.along || !model->field;
-  return hangs ? zp_hangs_by(&model->topology, changes) : zp_last_gap_rate(model, changes.y, changes.y);
+  return zp_spreads_by_load(model) ? zp_hangs_by(&model->topology, changes)
+                                   : zp_last_gap_rate(model, changes.y, changes.y);
 }
 
 /* Faces nearer than this have closed, m: they touch, or their film is thinner than the liquid equivalent to the

@@ -1086,7 +1086,7 @@ static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
   const ZpForces moved = zp_forces(model, m->moved);
   turn(m, step);
   if (zp_pouch_rank(model) > 0)
-    m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, m->q, &m->eval, m->moved, fraction);
+    m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, &m->eval, m->moved, fraction);
   edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }

@@ -82,7 +82,7 @@ static ZpSpan span_of(const ZpDynamics *d, const ZpMovingMember *m) {
                   .w = m->state->last_step > 0 ? m->mean_v : NULL,
                   .share = 1,
                   .beyond = zp_state_beyond(m->model, m->state),
-                  .pressure = m->pressure};
+                  .pressure = zp_memory_pressure(m->model, zp_state_memory(m->model, m->state))};
 }
 
 /* The first member of a port, which has its voltage. */
@@ -509,18 +509,12 @@ static void release_cavities(ZpDynamics *d) {
     if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
 }
 
-/* The pressure of a pouch is counted from that of the last step. */
-static void start_pressure(const ZpDynamics *d, ZpMovingMember *m) {
-  m->pressure = zp_memory_pressure(m->model, span_of(d, m).memory);
-}
-
 static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
   d->fewest = SIZE_MAX;
   release_cavities(d);
   if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
-    start_pressure(d, m);
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (in_plane(d)) m->normal = zp_across(zp_direction(d->pose1[d->plane.stand[m - d->member].upper].turn));
     if (m->model->field) keep_apart(d, m, q1);

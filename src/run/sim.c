@@ -243,7 +243,8 @@ static void start_near(const ZpSim *m, const ZpState *rate, double offset, ZpSim
   memcpy(zp_state_bodies(near->model, state), zp_state_bodies(near->model, at),
          zp_state_bodies_size(near->model) * sizeof(double));
   if (m->model->def.initial.state != ZP_INITIAL_STRAIGHT)
-    zp_sim_start_at(near, zp_state_q(near->model, at), zp_state_pressure(near->model, at));
+    zp_sim_start_at(near, zp_state_q(near->model, at),
+                    zp_memory_pressure(near->model, zp_state_memory(near->model, at)));
 }
 
 ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const rate[], double offset) {

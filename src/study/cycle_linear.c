@@ -347,7 +347,7 @@ static void put_member(ZpLinearCycle *l, size_t which, double turns, ZpSim *sim)
   zp_small_motion_nodes(&l->small, which, l->x, 1, q);
   if (zp_pouch_rank(model) > 0)
     *zp_law_state(model, &zp_term_pouch, sim->state) =
-        zp_pouch_predicted(model, l->rest.statics.member[which].q, &l->rest.statics.member[which].eval, q, 1);
+        zp_pouch_predicted(model, &l->rest.statics.member[which].eval, q, 1);
   for (size_t i = 0; i < zp_coordinates(model); i++)
     q[i] += l->rest.statics.member[which].q[i];
 }

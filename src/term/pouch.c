@@ -13,7 +13,7 @@ static bool acts(const ZpModel *model) {
   return model->pouch.w > 0;
 }
 
-/* The pressure, by which the next search starts. */
+/* The pressure of the last step. */
 static size_t state(const ZpModel *model) {
   (void)model;
   return 1;
@@ -29,10 +29,6 @@ static double modulus_of(const ZpSpan *span) {
 
 double zp_memory_pressure(const ZpModel *model, const double *memory) {
   return acts(model) ? *zp_law_memory(model, &zp_term_pouch, memory) : 0;
-}
-
-double zp_state_pressure(const ZpModel *model, ZpState *state) {
-  return acts(model) ? *zp_law_state(model, &zp_term_pouch, state) : 0;
 }
 
 /* Add the volume by the coordinates at one end, times a share => rate [2 stride]. */
@@ -62,16 +58,12 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
 }
 
-double zp_pouch_predicted(const ZpModel *model, const double *at, ZpEval *e, const double *moved, double fraction) {
-  const ZpPouchParams *pouch = &model->pouch;
-  const ZpNodes by = zp_nodes(model, moved);
-  double change = 0;
+double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *moved, double fraction) {
+  const ZpNodes by = zp_nodes(model, e->by_volume), to = zp_nodes(model, moved);
+  double change = 0; /* both terms of a node cancel but for a small part */
   for (size_t i = 0; i < model->nodes; i++)
-    change += zp_pouch_by_x(pouch, model->nodes, e->plates.gap, i) * by.x[i] -
-              zp_pouch_by_h(pouch, model->nodes, zp_nodes(model, at).x, i) * by.y[i];
-  double pressure = e->pressure - fraction * zp_pouch_modulus * change / pouch->volume;
-  e->memory_end[zp_law(model, &zp_term_pouch)->at] = pressure;
-  return pressure;
+    change += by.x[i] * to.x[i] + by.y[i] * to.y[i];
+  return e->pressure - fraction * zp_pouch_modulus * change / model->pouch.volume;
 }
 
 /* Add minus a pressure times the second derivatives of the volume. */

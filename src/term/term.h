@@ -34,7 +34,7 @@ typedef struct ZpSpan {
   ZpCachedField beyond;      /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
-  double pressure;           /* pressure of a pouch at which the search stands, Pa; not of an instant in motion */
+  double pressure; /* of a pouch: pressure from which that at the end is counted, Pa; not of an instant in motion */
 } ZpSpan;
 
 typedef enum ZpSpanEnd { ZP_SPAN_START, ZP_SPAN_END } ZpSpanEnd;
@@ -125,17 +125,16 @@ double zp_term_meniscus_head(const ZpModel *model, double suction, double U, dou
 double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
 /* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last
- * force, of a span that ended `at` these coordinates, foresees after a fraction of a change of them [2 stride], Pa,
- * also its state there; number of terms of rank one that it adds to the band. */
+ * force, at rest, foresees after a fraction of a change of the coordinates [2 stride], Pa; number of terms of rank one
+ * that it adds to the band. */
 static inline size_t zp_pressure_place(const ZpModel *model) {
   return model->count - model->s;
 }
-double zp_pouch_predicted(const ZpModel *model, const double *at, ZpEval *eval, const double *moved, double fraction);
+double zp_pouch_predicted(const ZpModel *model, const ZpEval *eval, const double *moved, double fraction);
 size_t zp_pouch_rank(const ZpModel *model);
 
-/* The pressure of a pouch in the memory of all laws, and in a state, Pa; 0 without one. */
+/* The pressure of a pouch in the memory of all laws, Pa; 0 without one. */
 double zp_memory_pressure(const ZpModel *model, const double *memory);
-double zp_state_pressure(const ZpModel *model, ZpState *state);
 
 /* Number of terms of rank one that a bead at rest adds to the band of the stiffness. */
 size_t zp_bead_rank(const ZpModel *model);
