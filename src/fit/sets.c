@@ -632,8 +632,7 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
     status = read_set(r, set, measured, measured->y[c]);
     if (status == ZP_OK && measured->is_record) skip_rows(fit, set);
     if (status == ZP_OK && set->rows == 0)
-      status = zp_fail(r->err, ZP_BAD_INPUT,
-                       "%.200s: calibrate.skip_until and calibrate.skip_after leave no row",
+      status = zp_fail(r->err, ZP_BAD_INPUT, "%.200s: calibrate.skip_until and calibrate.skip_after leave no row",
                        measured->data->path);
     fit->rows += set->rows;
   }
