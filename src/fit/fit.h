@@ -46,6 +46,8 @@ typedef struct ZpFitRun {
   double *time, *voltage; /* [rows] s, V */
   double from;            /* what the times of the file have at the start of the run, s */
   int late;               /* the parameter that is the time of the record at the start of the run; -1: none */
+  double last;            /* time of its last row, s */
+  double closing;         /* when a measured column has first done half of what it does, s */
 } ZpFitRun;
 
 /* One measured column of one file: rows of one kind, against one quantity that was set. */
@@ -80,11 +82,16 @@ typedef struct ZpFit {
   char layout[300]; /* which lines of a file are its table, where that is not plain */
   double *sigma;    /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   double tolerance; /* of the time steps of records, if solver.tolerance is auto; NAN: the usual one */
+  double enough;    /* a descent ends where the squares would fall by less than this share of their mean */
+  double horizon;   /* rows of records count up to the closing and this share of the time after it */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */
   ZpStatus status; /* of the machine */
   ZpError *err;
 } ZpFit;
+
+/* Neither stopped nor out of memory? */
+bool zp_fit_goes_on(const ZpFit *fit);
 
 /* Read and check the keys and data of a fit. To be closed whatever the status is. */
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
@@ -95,6 +102,9 @@ ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err);
 
 /* Is this key a real number, which can be fitted and set by a column? */
 bool zp_fit_takes(int key);
+
+/* Is a row of a record beyond the horizon? */
+bool zp_fit_is_beyond(const ZpFit *fit, const ZpFitSet *of, size_t row);
 
 /* The set of a row; the number of different kinds. */
 const ZpFitSet *zp_fit_set_of(const ZpFit *fit, size_t row);
@@ -119,8 +129,8 @@ double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
  * no derivative is found, the progress hook asked to stop, or there is no memory. */
 bool zp_fit_evaluate(ZpFit *fit, const double *z, double *fitted, double *J);
 
-/* Sum of squares of the weighted residuals. A row without a value counts as twice the largest measured value of its
- * set. */
+/* Sum of squares of the weighted residuals, up to the horizon. A row without a value counts as twice the largest
+ * measured value of its set. */
 double zp_fit_square(const ZpFit *fit, const double *fitted);
 
 /* A point of a fit. */

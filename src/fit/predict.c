@@ -149,12 +149,24 @@ static double run_time(const ZpFit *fit, const ZpFitRun *run, const double *z, s
   return fit->x[row] - run->from - value_of(run->late, fit, z);
 }
 
+/* File time of the last row that counts. */
+static double horizon_of(const ZpFit *fit, const ZpFitRun *run) {
+  return run->closing + fit->horizon * (run->last - run->closing);
+}
+
+bool zp_fit_is_beyond(const ZpFit *fit, const ZpFitSet *of, size_t row) {
+  return of->x_key < 0 && fit->horizon < 1 && fit->x[row] > horizon_of(fit, &fit->run[of->run]);
+}
+
 static double end_of(const ZpFit *fit, size_t which, const double *z) {
   double end = 0;
   for (size_t i = 0; i < fit->sets; i++) {
     const ZpFitSet *of = &fit->set[i];
-    if (of->x_key < 0 && of->run == which)
-      end = fmax(end, run_time(fit, &fit->run[which], z, of->first + of->rows - 1));
+    size_t row = of->first + of->rows;
+    if (of->x_key >= 0 || of->run != which) continue;
+    while (row > of->first + 1 && zp_fit_is_beyond(fit, of, row - 1))
+      row--;
+    end = fmax(end, run_time(fit, &fit->run[which], z, row - 1));
   }
   return end;
 }
@@ -238,6 +250,7 @@ double zp_fit_square(const ZpFit *fit, const double *fitted) {
     for (size_t i = of->first; i < of->first + of->rows; i++)
       largest = fmax(largest, fabs(fit->y[i]));
     for (size_t i = of->first; i < of->first + of->rows; i++) {
+      if (zp_fit_is_beyond(fit, of, i)) continue;
       double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
       sum += r * r;
     }
@@ -401,7 +414,7 @@ bool zp_fit_evaluate(ZpFit *fit, const double *z, double *fitted, double *J) {
   }
   if (differed) fit->evaluations += 2 * fit->keys;
   for (size_t i = 0; i < fit->rows; i++) {
-    all &= isfinite(fitted[i]) != 0;
+    all &= isfinite(fitted[i]) || zp_fit_is_beyond(fit, zp_fit_set_of(fit, i), i);
     for (int k = 0; k < fit->n && J; k++) {
       double *entry = &J[i * (size_t)fit->n + (size_t)k];
       *entry = isfinite(*entry) && isfinite(fitted[i]) ? *entry * weight(fit, i) : 0;

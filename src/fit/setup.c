@@ -119,7 +119,7 @@ static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
 }
 
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .tolerance = NAN, .err = err};
+  *fit = (ZpFit){.def = def, .tolerance = NAN, .horizon = 1, .err = err};
   if (*def->data.file == 0)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
   ZpStatus status = read_keys(fit, err);

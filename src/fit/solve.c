@@ -1,12 +1,10 @@
-/* Least squares from several starts, by the method of Levenberg and Marquardt within bounds. */
+/* Least squares from one point, by the method of Levenberg and Marquardt within bounds. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/def.h"
 #include "fit/fit.h"
-#include "sample/sobol.h"
 
 bool zp_fit_covariance(const ZpFit *fit, const double *J, const bool *stays, double ridge, double least,
                        double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
@@ -143,26 +141,27 @@ void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point) {
   point->square = zp_fit_square(fit, point->fitted);
 }
 
-static bool goes_on(const ZpFit *fit) {
+bool zp_fit_goes_on(const ZpFit *fit) {
   return !fit->stopped && fit->status == ZP_OK;
 }
 
 bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
-  static const double near = 1e-9, flat = 1e-9, weakest = 1e-12, strongest = 1e8;
+  static const double near = 1e-9, flat = 1e-9, rough = 0.02, weakest = 1e-12, strongest = 1e8;
   ZpFitPoint trial = {0};
   double damping = 1e-3;
   bool found = fit->n == 0, moves = zp_fit_open_point(fit, &trial);
-  for (int k = 0; k < most && moves && !found && goes_on(fit); k++) {
+  for (int k = 0; k < most && moves && !found && zp_fit_goes_on(fit); k++) {
+    const double variance = point->square / (double)fit->rows;
     const Normal normal = normal_of(fit, point, held);
     double step[ZP_FIT_MOST], falls, moved = 0;
-    for (moves = false; !moves && !found && damping < strongest && goes_on(fit); damping *= moves ? 0.2 : 8) {
+    for (moves = false; !moves && !found && damping < strongest && zp_fit_goes_on(fit); damping *= moves ? 0.2 : 8) {
       if (!damped_step(fit, &normal, damping, step)) continue;
       moved = go(fit, &normal, point->z, step, trial.z, &falls);
-      found = moved < near || falls < flat * flat * point->square;
+      found = moved < near || falls < fmax(flat * flat * point->square, fit->enough * variance);
       if (found) break;
       zp_fit_go_to(fit, &trial);
       moves = trial.square < point->square && (trial.good || !point->good);
-      found = !moves && falls < flat * point->square; /* what is left is rounding of the runs */
+      found = !moves && falls < rough * variance; /* what is left are errors of the runs */
     }
     damping = fmax(damping, weakest);
     if (!moves) break;
@@ -171,155 +170,4 @@ bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
   }
   free(trial.fitted);
   return found;
-}
-
-/* -- several starts --------------------------------------------------------------------------------- */
-
-/* Start `which`: the given values, then points spread evenly over the bounds, by their ratio where both are positive.
- * Shifts start at 0. */
-static void start_at(const ZpFit *fit, int which, double *z) {
-  for (int k = 0; k < fit->n; k++) {
-    const double low = fit->lower[k], high = fit->upper[k];
-    const double part = (zp_sobol((uint32_t)which, k % ZP_SOBOL_DIMENSIONS) + 0.5) / 4294967296.0;
-    z[k] = fmin(fmax(fit->first[k], low), high);
-    if (which == 0 || k >= fit->keys) continue;
-    z[k] = low > 0 ? low * pow(high / low, part) : low + part * (high - low);
-  }
-}
-
-/* Do two points differ by more than the fit leaves open? By the values of the model there. */
-static bool differ(const ZpFit *fit, const double *a, const double *b) {
-  static const double apart = 1e-3;
-  for (int k = 0; k < fit->keys; k++)
-    if (fabs(a[k] - b[k]) > apart * fmax(fabs(a[k]), fabs(b[k]))) return true;
-  return false;
-}
-
-typedef struct Start {
-  double z[ZP_FIT_MOST], square;
-  bool good, ended;
-} Start;
-
-/* Points with a value for all rows first, then by their sums of squares. */
-static int by_square(const void *a, const void *b) {
-  const Start *first = a, *second = b;
-  if (first->good != second->good) return first->good ? -1 : 1;
-  return first->square < second->square ? -1 : first->square > second->square;
-}
-
-static void keep(const ZpFitPoint *point, Start *start) {
-  memcpy(start->z, point->z, sizeof start->z);
-  start->square = point->square;
-  start->good = point->good;
-}
-
-/* The sum of squares at each start. */
-static void look(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
-  double *J = point->J;
-  point->J = NULL;
-  for (int k = 0; k < count; k++) {
-    start_at(fit, k, point->z);
-    point->square = INFINITY, point->good = false;
-    if (goes_on(fit)) zp_fit_go_to(fit, point);
-    keep(point, &start[k]);
-  }
-  point->J = J;
-}
-
-static void descend_from(ZpFit *fit, int most, Start *start, ZpFitPoint *point) {
-  memcpy(point->z, start->z, sizeof point->z);
-  zp_fit_go_to(fit, point);
-  start->ended = zp_fit_descend(fit, NULL, most, point);
-  keep(point, start);
-}
-
-/* How many of the starts lead to the same point as the best of them. */
-static int agreeing(const ZpFit *fit, const Start *start, int count) {
-  int best = 0, agree = 0;
-  for (int k = 1; k < count; k++)
-    if (by_square(&start[k], &start[best]) < 0) best = k;
-  for (int k = 0; k < count; k++)
-    agree += !differ(fit, start[k].z, start[best].z);
-  return agree;
-}
-
-/* Has the best of them residuals like noise? */
-static bool point_is_noise(ZpFit *fit, const Start *start, int count, ZpFitPoint *point) {
-  int best = 0;
-  for (int k = 1; k < count; k++)
-    if (by_square(&start[k], &start[best]) < 0) best = k;
-  if (best != count - 1) { /* the last one is still there */
-    memcpy(point->z, start[best].z, sizeof point->z);
-    double *J = point->J;
-    point->J = NULL;
-    zp_fit_go_to(fit, point);
-    point->J = J;
-  }
-  const ZpFitJudgement judgement = zp_fit_judge(fit, point);
-  return zp_fit_is_noise(&judgement);
-}
-
-/* Descend from the given values, then from the others, the most promising first, until two of three or more agree on
- * the best, and its residuals are noise. */
-static int descend_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
-  enum { SCOUT = 20, LEAST = 3 };
-  int tried = 0;
-  look(fit, start, count, point);
-  if (count > 1) qsort(start + 1, (size_t)count - 1, sizeof *start, by_square);
-  while (tried < count && goes_on(fit)) {
-    descend_from(fit, SCOUT, &start[tried++], point);
-    if (tried >= LEAST && agreeing(fit, start, tried) > 1 && point_is_noise(fit, start, tried, point)) break;
-  }
-  return tried;
-}
-
-/* Accuracy of the time steps with which their error is a small part of the standard error of a mean of all rows. */
-static double tolerance_for(const ZpFit *fit, const ZpFitPoint *at) {
-  static const double part = 0.2, least = 2.5e-5, most = 1e-3;
-  double noise = INFINITY;
-  for (size_t s = 0; s < fit->sets; s++) {
-    const ZpFitSet *of = &fit->set[s];
-    double low = INFINITY, high = -INFINITY, sum = 0;
-    if (of->x_key >= 0) continue;
-    for (size_t i = of->first; i < of->first + of->rows; i++) {
-      const double r = at->fitted[i] - fit->y[i];
-      low = fmin(low, fit->y[i]), high = fmax(high, fit->y[i]);
-      sum += r * r;
-    }
-    const double rms = sqrt(sum / (double)of->rows);
-    if (high > low) noise = fmin(noise, rms / (high - low) / sqrt((double)of->rows));
-  }
-  return isfinite(noise) ? fmin(fmax(part * noise, least), most) : (double)NAN;
-}
-
-/* The best minimum with accurate time steps. */
-static void refine(ZpFit *fit, ZpFitPoint *best) {
-  enum { MOST = 60 };
-  fit->tolerance = tolerance_for(fit, best);
-  zp_fit_go_to(fit, best);
-  best->ended = zp_fit_descend(fit, NULL, MOST, best);
-}
-
-bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
-  const int count = fit->keys > 0 ? fit->def->calibrate.starts : 1;
-  Start *start = calloc((size_t)count, sizeof *start);
-  *starts = (ZpFitStarts){.next = INFINITY};
-  if (!start) fit->status = zp_fail_memory(fit->err);
-  if (start) starts->tried = descend_all(fit, start, count, best);
-  if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
-  for (int k = 0; k < starts->tried; k++) {
-    const bool same = !differ(fit, start[k].z, start->z);
-    starts->agree += same;
-    if (same || !start[k].good || !start[k].ended || start[k].square >= starts->next) continue;
-    starts->next = start[k].square;
-    memcpy(starts->other, start[k].z, sizeof starts->other);
-  }
-  if (start && goes_on(fit)) {
-    memcpy(best->z, start->z, sizeof best->z);
-    zp_fit_go_to(fit, best);
-    starts->best = best->square;
-    refine(fit, best);
-  }
-  free(start);
-  return best->good && fit->status == ZP_OK;
 }
