@@ -122,3 +122,29 @@ TEST(runs_of_one_sign_are_no_noise) {
   judgement = zp_fit_judge(&fit, &best);
   ck_assert(zp_fit_is_noise(&judgement));
 }
+
+/* Data of insulators that leak, fitted with ones that do not: the note names the law, (12.6). Without a leak no law is
+ * missing. */
+TEST(missing_law_is_named) {
+  ZpActuatorDef def = recorded("medium.permittivity"), truth = def;
+  def.calibrate.starts = 1;
+  def.solver.tolerance = 1e-4;
+  snprintf(def.calibrate.offsets, sizeof def.calibrate.offsets, "time; displacement");
+  write_record(&truth, 9e-3, 2e-5);
+  const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
+  printf("clean: %g\n", zp_result_get(result, "law_test"));
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  ck_assert_double_ge(zp_result_get(result, "law_test"), 5e-3);
+  truth.insulator.resistivity = 5e9;
+  write_record(&truth, 9e-3, 5e-6);
+  result = data_study_of(ZP_STUDY_CALIBRATE, &def);
+  printf("leak: %s, %g\n", result->message, zp_result_get(result, "law_test"));
+  bool named = false;
+  for (size_t i = 0; i < result->notes; i++) {
+    printf("%s\n", result->note[i]);
+    named |= strstr(result->note[i], "leakage through the insulators (insulator.resistivity)") != NULL;
+  }
+  ck_assert_int_eq(result->outcome, ZP_DOUBTFUL);
+  ck_assert_double_lt(zp_result_get(result, "law_test"), 1e-6);
+  ck_assert(named);
+}

@@ -88,7 +88,7 @@ static void note_unbounded(const ZpFit *fit, int k, const ZpFitInterval *interva
 
 /* The numbers of the summary about the parameters. */
 static void report_keys(const ZpFit *fit, const double *z, const double *J, const ZpFitJudgement *judgement,
-                        const ZpFitInterval *interval, ZpResult *result) {
+                        const ZpFitMissing *missing, const ZpFitInterval *interval, ZpResult *result) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   bool told_apart = J && zp_fit_covariance(fit, J, NULL, 0, 1e-10, C);
   size_t n = (size_t)fit->n;
@@ -110,6 +110,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, cons
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", judgement->reduced);
   zp_result_add(result, "runs_test", "1", judgement->runs);
+  zp_result_add(result, "law_test", "1", missing->chance);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
   if (*fit->layout) zp_result_note(result, "%s", fit->layout);
   if (*fit->idle) zp_result_note(result, "columns that are not used: %s", fit->idle);
@@ -309,12 +310,19 @@ static bool is_ambiguous(const ZpFit *fit, const ZpFitStarts *starts, const ZpFi
 
 /* Why a fit is doubtful. */
 static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJudgement *judgement,
-                          const ZpFitStarts *starts, const ZpFitInterval *interval, ZpResult *result) {
+                          const ZpFitStarts *starts, const ZpFitInterval *interval, const ZpFitMissing *missing,
+                          ZpResult *result) {
   if (judgement->runs < 0.01)
     zp_result_note(result,
                    "residuals are not noise: so few runs of one sign have a probability of %.1g; the model lacks "
                    "something, or the measurement has a drift",
                    judgement->runs);
+  if (zp_fit_is_missing(missing))
+    zp_result_note(
+        result,
+        "the model lacks something like %s (%s), which would remove %.2g %% of the squares of the residuals; "
+        "noise alone shows as much with a probability of %.1g",
+        missing->what, missing->key, 100 * missing->share, missing->chance);
   if (judgement->too_large < 0.01)
     zp_result_note(result, "residuals are larger than the standard deviations given: reduced chi-square %.3g",
                    judgement->reduced);
@@ -338,14 +346,17 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   bool good = zp_fit_solve(fit, best, &starts);
   if (fit->status != ZP_OK) return fit->status;
   ZpFitJudgement judgement = zp_fit_judge(fit, best);
+  ZpFitMissing missing = {NULL, NULL, 0, NAN};
   ZpFitInterval interval[ZP_FIT_MOST];
   for (int k = 0; k < ZP_FIT_MOST; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1};
   if (good) zp_fit_intervals(fit, judgement.variance, best, interval);
   if (good) judgement = zp_fit_judge(fit, best);
+  if (good) missing = zp_fit_find_missing(fit, best);
   if (fit->status != ZP_OK) return fit->status;
   const double *z = best->z, *fitted = best->fitted, square = best->square;
-  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &starts, interval) || !best->ended;
+  const bool doubtful = !zp_fit_is_noise(&judgement) || zp_fit_is_missing(&missing) ||
+                        is_ambiguous(fit, &starts, interval) || !best->ended;
   const char *bound = name_at_bound(fit, z);
   result->outcome = !good      ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
                     : doubtful ? ZP_DOUBTFUL
@@ -356,8 +367,8 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
-  report_keys(fit, z, good ? best->J : NULL, &judgement, interval, result);
-  report_doubts(fit, best, &judgement, &starts, interval, result);
+  report_keys(fit, z, good ? best->J : NULL, &judgement, &missing, interval, result);
+  report_doubts(fit, best, &judgement, &starts, interval, &missing, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   const ZpFitSet *times = last_set(fit, ZP_FIT_TIME);
   if (good && times && note_pull_in(fit, times, z, result) != ZP_OK) return zp_fail_memory(err);

@@ -189,6 +189,19 @@ ZpFitJudgement zp_fit_judge(const ZpFit *fit, const ZpFitPoint *best);
 /* Are these residuals noise? */
 bool zp_fit_is_noise(const ZpFitJudgement *judgement);
 
+/* The law that the model lacks and that would explain most of what the residuals still show. */
+typedef struct ZpFitMissing {
+  const char *what, *key; /* NULL: none explains anything */
+  double share;           /* of the sum of squares that it would remove */
+  double chance;          /* probability that noise alone lets the best law remove as much; NAN: not asked */
+} ZpFitMissing;
+
+/* Of a fit of records at its best point (docs/theory.md, (12.6)). */
+ZpFitMissing zp_fit_find_missing(ZpFit *fit, const ZpFitPoint *best);
+
+/* Does it explain more than noise would? */
+bool zp_fit_is_missing(const ZpFitMissing *missing);
+
 /* Student's distribution: the value that a share of 0.975 is below, for so many degrees of freedom. */
 double zp_fit_student(double freedom);
 

@@ -88,6 +88,11 @@ ZpFitJudgement zp_fit_judge(const ZpFit *fit, const ZpFitPoint *best) {
   return of;
 }
 
+bool zp_fit_is_missing(const ZpFitMissing *missing) {
+  static const double unlikely = 5e-3;
+  return missing->chance < unlikely;
+}
+
 bool zp_fit_is_noise(const ZpFitJudgement *of) {
   static const double unlikely = 1e-2;
   return !(of->runs < unlikely) && !(of->too_large < unlikely);

@@ -153,10 +153,10 @@ static double error_of_steps(ZpFit *fit, ZpFitPoint *at, double *before) {
   return sum;
 }
 
-/* The tolerance with which the errors of the steps are too small to move a parameter by a part of its standard error.
- */
+/* A tolerance with which the errors of the steps are small beside the standard errors: the last step to it changes all
+ * rows together by less than a part of the noise of one. */
 static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
-  static const double part = 0.15, least = 1e-5;
+  static const double part = 0.5, least = 1e-5;
   double *before = fit->runs > 0 ? calloc(fit->rows, sizeof *before) : NULL;
   if (fit->runs > 0 && !before) fit->status = zp_fail_memory(fit->err);
   while (before && zp_fit_goes_on(fit) && at->good && fit->tolerance > least) {
