@@ -351,12 +351,25 @@ static bool differentiate_set(ZpFit *fit, const ZpFitSet *of, const double *z, d
   return differed;
 }
 
+/* Has the record a value in some row whose derivative by a key is missing? */
+static bool lacks_slope(const ZpFit *fit, size_t which, int key, const double *fitted, const double *J) {
+  for (size_t s = 0; s < fit->sets; s++) {
+    const ZpFitSet *of = &fit->set[s];
+    if (of->x_key >= 0 || of->run != which) continue;
+    for (size_t i = of->first; i < of->first + of->rows; i++)
+      if (isfinite(fitted[i]) && !isfinite(J[i * (size_t)fit->n + (size_t)key])) return true;
+  }
+  return false;
+}
+
 /* The keys' derivatives of a record by finite differences of whole runs, where the run has none. */
-static bool difference_run(ZpFit *fit, size_t which, const double *z, double *J) {
+static bool difference_run(ZpFit *fit, size_t which, const double *z, const double *fitted, double *J) {
   double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
   if (!up) fit->status = zp_fail_memory(fit->err);
   for (int k = 0; k < fit->keys && up && !ask(fit); k++) {
     double at[ZP_FIT_MOST];
+    if (!lacks_slope(fit, which, k, fitted, J)) continue;
+    fit->evaluations += 2;
     memcpy(at, z, sizeof at);
     double step = 10 * difference * size_of(z[k]);
     double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
@@ -370,29 +383,15 @@ static bool difference_run(ZpFit *fit, size_t which, const double *z, double *J)
         J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
     }
   }
-  fit->evaluations += 2 * fit->keys;
   const bool good = up && !fit->stopped && fit->status == ZP_OK;
   free(up);
   return good;
 }
 
-/* Has the record a value in some row whose derivatives are missing? */
-static bool lacks_slopes(const ZpFit *fit, size_t which, const double *fitted, const double *J) {
-  for (size_t s = 0; s < fit->sets; s++) {
-    const ZpFitSet *of = &fit->set[s];
-    if (of->x_key >= 0 || of->run != which) continue;
-    for (size_t i = of->first; i < of->first + of->rows; i++)
-      for (int k = 0; k < fit->keys; k++)
-        if (isfinite(fitted[i]) && !isfinite(J[i * (size_t)fit->n + (size_t)k])) return true;
-  }
-  return false;
-}
-
 static bool follow_record(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
   if (ask(fit)) return false;
   follow_run(fit, which, z, fitted, J);
-  if (!J || !lacks_slopes(fit, which, fitted, J)) return fit->status == ZP_OK;
-  return difference_run(fit, which, z, J);
+  return J ? difference_run(fit, which, z, fitted, J) : fit->status == ZP_OK;
 }
 
 /* -- all rows --------------------------------------------------------------------------------------- */

@@ -51,7 +51,7 @@ void zp_run_sensitivity_begin(ZpRunSensitivity *rates);
 void zp_run_sensitivity_look_ahead(ZpRunSensitivity *rates, double end_time);
 void zp_run_sensitivity_follow(ZpRunSensitivity *rates);
 
-/* The derivative by the k-th key of a number that a simulation has now. */
+/* The derivative by the k-th key of a number that a simulation has now; NAN if it has ceased to exist. */
 double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user);
 
