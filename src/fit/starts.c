@@ -183,8 +183,11 @@ bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
   find_closings(fit);
   fit->tolerance = searching;
   fit->enough = 0.02;
-  if (!start) fit->status = zp_fail_memory(fit->err);
-  if (start) starts->tried = descend_all(fit, start, count, best);
+  if (!start) {
+    fit->status = zp_fail_memory(fit->err);
+    return false;
+  }
+  starts->tried = descend_all(fit, start, count, best);
   if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
   for (int k = 0; k < starts->tried; k++) {
     const bool same = !differ(fit, start[k].z, start->z);
@@ -193,7 +196,7 @@ bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
     starts->next = start[k].square;
     memcpy(starts->other, start[k].z, sizeof starts->other);
   }
-  if (start && zp_fit_goes_on(fit)) {
+  if (zp_fit_goes_on(fit)) {
     memcpy(best->z, start->z, sizeof best->z);
     zp_fit_go_to(fit, best);
     starts->best = best->square;
