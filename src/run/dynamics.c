@@ -921,7 +921,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .attempt = attempt,
                             .resolved = resolved,
                             .overlooks = in_plane(d) || creeps(d) ? overlooks : NULL,
-                            .corrected = zp_pouch_rank(d->member->model) > 0 ? corrected : NULL,
+                            .corrected = corrected,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }
