@@ -123,7 +123,7 @@ def electrode(free, power=0, eta=0, curls=0, travels=(0.35, 0.5)):
         return newton(misses, start)
 
     (low, high), steps = travels, 12
-    start = [0.1, -0.2, 0.2]
+    start = [1e-3, -2e-3, 2e-3]
     for k in range(1, steps + 1):  # from a small travel on, each solution the start of the next
         start = load(k * low / steps, start)
     golden = 0.5 * (math.sqrt(5) - 1)

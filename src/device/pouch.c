@@ -35,6 +35,7 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(pouch.electrode_length, pouch.count), ZP_HAS(POUCH),
             "the other kinds have no pouch"),
     ZP_RULE(PHYSICS, ZP_SET(isometric.strain), ZP_HAS(POUCH), "the other kinds are held at isometric.separation"),
+    ZP_RULE(PHYSICS, ZP_HAS(POUCH), ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT), "straight films enclose no liquid"),
     ZP_RULE(PHYSICS, ZP_HAS(POUCH), ZP_IS(liquid.lateral_flow, false), "a pouch is sealed at its sides"),
     ZP_RULE(NOT_MODELLED, ZP_HAS(POUCH), ZP_IS(electro.edges, false),
             "the liquid beside the edges of a sealed pouch is not known"),

@@ -1,5 +1,6 @@
 #include "liquid/pouch.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "math/elementary.h"
@@ -12,6 +13,12 @@ static double area_of(double a) {
   double a2 = a * a;
   if (a < flat) return a / 3 * (1 - a2 / 5 * (1 - 2 * a2 / 21));
   return (a - zp_sine_of(a / turn) * zp_cosine_of(a / turn)) / (2 * a2);
+}
+
+double zp_pouch_modulus_of_step(const ZpPouchParams *p, double h) {
+  static const double above = 1e3;
+  double area = p->w * p->length, inertia = area > 0 ? p->mass * p->volume / (area * area) : 0;
+  return fmax(zp_pouch_modulus, above * inertia / (h * h));
 }
 
 double zp_pouch_angle(double length, double area) {

@@ -13,12 +13,14 @@ typedef struct ZpPouchParams {
   double volume;    /* V that one film encloses, m^3 */
   double electrode; /* length of the electrodes from the left seam on, m */
   double length;    /* of a film, m */
+  double mass;      /* of a film, kg */
 } ZpPouchParams;
 
-/* Moduli with which the volume is held, far stiffer than any liquid, Pa, eq. (40.6): while a pressure is sought at
- * rest, where what is found does not depend on it; over a step, whose pressure is that of the last one but for a change
- * of the volume by 1e-10 of it. */
-static const double zp_pouch_modulus = 1e11, zp_pouch_modulus_of_step = 1e13;
+/* Moduli with which the volume is held while a pressure is sought, Pa, eq. (40.6): what is found does not depend on
+ * them. At rest far above that of any liquid; for derivatives, whose rounding grows with it; over a step of the length
+ * h, s, also above the inertia of the films. */
+static const double zp_pouch_modulus = 1e11, zp_pouch_modulus_of_rates = 1e7;
+double zp_pouch_modulus_of_step(const ZpPouchParams *pouch, double h);
 
 /* Half opening angle of an arc of `length` which, with its mirror image, encloses `area`, eq. (40.1); area up to
  * length^2 / pi: a circle, pi/2. rad */

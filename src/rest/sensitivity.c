@@ -67,6 +67,7 @@ static size_t reserve(ZpRestSensitivity *p, void *block) {
   p->rate = zp_arena_take(&arena, 2 * lanes);
   p->motion = zp_arena_take(&arena, zp_coordinates(p->at->member->model));
   p->tension = zp_arena_take(&arena, lanes);
+  p->squeezed = zp_arena_take(&arena, p->at->members);
   double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_arena_take(&arena, n);
@@ -104,6 +105,7 @@ void zp_rest_sensitivity_close(ZpRestSensitivity *p) {
 static void place_member(const ZpRestMember *at, ZpRestMember *near) {
   memcpy(near->q, at->q, zp_coordinates(at->model) * sizeof *near->q);
   near->closed = at->closed;
+  near->tension[zp_pressure_place(near->model)] = at->tension[zp_pressure_place(at->model)];
   if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
 }
 
@@ -170,6 +172,7 @@ static void add_scaling(ZpRestSensitivity *p, size_t which, const ZpRestMember *
     rate[i] += weight * (near->q[i] - at->q[i]);
   for (size_t j = 0; j < edges; j++)
     tension[j] += weight * (near->eval.edges.T[j] - at->eval.edges.T[j]);
+  p->squeezed[which] += weight * (near->eval.pressure - at->eval.pressure);
 }
 
 /* Do coordinates keep their places as the key changes? */
@@ -243,6 +246,7 @@ static void differentiate(ZpRestSensitivity *p) {
   memset(p->rate, 0, 2 * lanes * sizeof *p->rate);
   memset(p->tension, 0, lanes * sizeof *p->tension);
   memset(p->by_key, 0, at->n * sizeof *p->by_key);
+  memset(p->squeezed, 0, at->members * sizeof *p->squeezed);
   for (int k = 0; k < p->by.count; k++)
     away += p->by.near[k].weight * zp_statics_away(place(p, k));
   if (at->model->network->plane) add_all(p);
@@ -279,16 +283,72 @@ static void add_motion(ZpRestSensitivity *p, size_t which) {
   }
 }
 
-bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
-  p->inputs = inputs;
+/* The pressure of a pouch, kept behind the tensions, changes by what (40.6) leaves of the rate of its volume => the
+ * forces of that, added to r; the change over the whole rate. */
+static double add_pressure(ZpRestSensitivity *p, size_t which, double *r) {
+  ZpRestMember *m = &p->at->member[which];
+  const ZpModel *model = m->model;
+  const ZpSpan span = zp_statics_span(p->at, which);
+  if (zp_pouch_rank(model) == 0) return 0;
+  zp_assembly_changes(&m->assembly, p->by_key, p->motion);
+  double *rate = of_member(p, p->tension, which, 1) + zp_pressure_place(model);
+  double change = p->squeezed[which] + zp_pouch_predicted(model, &span, &m->eval, p->motion, 1) - m->eval.pressure;
+  *rate += change;
+  for (size_t i = 0; i < zp_coordinates(model); i++)
+    m->force[i] = change * m->eval.by_volume[i];
+  zp_assembly_add(&m->assembly, m->force, r);
+  return *rate != 0 ? fabs(change / *rate) : 0;
+}
+
+/* Forces => motion, which adds to that in by_key, and its reaction. */
+static void solve(ZpRestSensitivity *p, double *r) {
+  zp_arrow_solve(&p->at->newton.K, r);
+  if (zp_statics_holds(p->at)) p->reaction -= zp_statics_lifts(p->at) * zp_dot(p->at->n, p->at->row, r);
+  for (size_t i = 0; i < p->at->n && r != p->by_key; i++)
+    p->by_key[i] += r[i];
+}
+
+/* Each pass leaves the stiffness of the films over that of (40.6), mostly a thousandth, of the last change. */
+static bool solve_pressures(ZpRestSensitivity *p) {
+  enum { MOST_PASSES = 100 };
+  static const double enough = 1e-10;
+  for (int pass = 0; pass < MOST_PASSES; pass++) {
+    double change = 0;
+    memset(p->row, 0, p->at->n * sizeof *p->row);
+    for (size_t which = 0; which < p->at->members; which++)
+      change = fmax(change, add_pressure(p, which, p->row));
+    if (change <= enough) return true;
+    p->reaction += zp_statics_hold_rate(p->at, 0, p->row);
+    solve(p, p->row);
+  }
+  return false;
+}
+
+static void set_modulus(ZpRestSensitivity *p, double modulus) {
+  for (size_t which = 0; which < p->at->members; which++) {
+    p->at->member[which].modulus = modulus;
+    for (int k = 0; k < p->by.count; k++)
+      p->near[k].member[which].modulus = modulus;
+  }
+}
+
+static bool solve_all(ZpRestSensitivity *p) {
   differentiate(p);
   stiffness(p, p->by_key);
   if (!zp_arrow_factor(&p->at->newton.K)) return false;
-  zp_arrow_solve(&p->at->newton.K, p->by_key);
+  solve(p, p->by_key);
+  if (!solve_pressures(p)) return false;
   for (size_t which = 0; which < p->at->members; which++)
     add_motion(p, which);
-  if (zp_statics_holds(p->at)) p->reaction -= zp_statics_lifts(p->at) * zp_dot(p->at->n, p->at->row, p->by_key);
   return true;
+}
+
+bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
+  p->inputs = inputs;
+  set_modulus(p, zp_pouch_modulus_of_rates);
+  const bool solved = solve_all(p);
+  set_modulus(p, zp_pouch_modulus);
+  return solved;
 }
 
 const double *zp_rest_sensitivity_member(const ZpRestSensitivity *p, size_t which) {

@@ -25,7 +25,9 @@ typedef struct ZpRestSensitivity {
   ZpStatics near[ZP_DIFFERENCE_POINTS]; /* states of these */
   double *motion;                       /* [2 stride] the part of dq/dp beyond the stretching of all coordinates */
   double *rate;                         /* [2 stride] dq/dp of the last solution, m/SI */
-  double *tension;                      /* [stride] derivative of the tensions, N/SI */
+  double *tension;                      /* [stride] derivative of the tensions, N/SI; behind them that of a pouch's
+                                         * pressure, Pa/SI */
+  double *squeezed;                     /* [members] that of the pressure at stretched coordinates, Pa/SI */
   double reaction;                      /* derivative of the force that holds the platform, one part, N/SI */
   double *by_key, *by_parameter; /* [n] derivatives of forces at stretched coordinates; then over the stiffness */
   double *row;                   /* [n] work space */

@@ -80,6 +80,7 @@ static bool create_member(const ZpStatics *s, size_t which) {
   const ZpTies ties = is_joined(s) ? zp_ties_of(s->model, s->members, which) : zp_ties_of(model, 1, 0);
   ZpRestMember *m = &s->member[which];
   m->model = model;
+  m->modulus = zp_pouch_modulus;
   return zp_system_create(model, true, &m->eval) && zp_assembly_create(&ties, 0, model->is_rod, &m->assembly);
 }
 
@@ -815,6 +816,7 @@ ZpSpan zp_statics_span(const ZpStatics *s, size_t which) {
   span.beyond = zp_eval_beyond(&m->eval);
   span.tension = m->tension;
   span.pressure = m->tension[zp_pressure_place(m->model)];
+  span.modulus = m->modulus;
   return span;
 }
 
@@ -1084,9 +1086,11 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
 static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
   const ZpModel *model = m->model;
   const ZpForces moved = zp_forces(model, m->moved);
+  ZpSpan span = zp_span_at(m->q);
+  span.modulus = m->modulus;
   turn(m, step);
   if (zp_pouch_rank(model) > 0)
-    m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, &m->eval, m->moved, fraction);
+    m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, &span, &m->eval, m->moved, fraction);
   edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }

@@ -23,6 +23,7 @@ typedef struct ZpRestMember {
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied, */
   double good_pressure;       /* with the pressure of a pouch, Pa */
+  double modulus;             /* with which its volume is held, eq. (40.6), Pa */
   double closed;              /* gap at which it counts as closed, m; zp_quasistatic_start */
   bool idle;                  /* of a series, whose members are at rest each by itself: it stays where it is, */
   bool falls;                 /* unless it is far from an equilibrium */

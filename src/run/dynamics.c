@@ -82,7 +82,8 @@ static ZpSpan span_of(const ZpDynamics *d, const ZpMovingMember *m) {
                   .w = m->state->last_step > 0 ? m->mean_v : NULL,
                   .share = 1,
                   .beyond = zp_state_beyond(m->model, m->state),
-                  .pressure = zp_memory_pressure(m->model, zp_state_memory(m->model, m->state))};
+                  .pressure = m->pressure,
+                  .modulus = zp_pouch_modulus_of_step(&m->model->pouch, d->h)};
 }
 
 /* The first member of a port, which has its voltage. */
@@ -509,12 +510,31 @@ static void release_cavities(ZpDynamics *d) {
     if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
 }
 
+/* The search for the pressure of a pouch starts from that of the last step; a neighbouring simulation takes that of the
+ * simulation beside it. */
+static void start_pressure(const ZpDynamics *d, ZpMovingMember *m) {
+  m->pressure = d->lead ? d->lead->member[m - d->member].pressure
+                        : zp_memory_pressure(m->model, zp_state_memory(m->model, m->state));
+}
+
+static void corrected(void *self, const double *x) {
+  ZpDynamics *d = self;
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    if (zp_pouch_rank(m->model) == 0) continue;
+    const ZpSpan span = span_of(d, m);
+    zp_assembly_changes(&m->assembly, x, m->moved);
+    m->pressure = zp_pouch_predicted(m->model, &span, &m->eval, m->moved, 1);
+    m->eval.memory_end[zp_law(m->model, &zp_term_pouch)->at] = m->pressure;
+  }
+}
+
 static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
   d->fewest = SIZE_MAX;
   release_cavities(d);
   if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    start_pressure(d, m);
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (in_plane(d)) m->normal = zp_across(zp_direction(d->pose1[d->plane.stand[m - d->member].upper].turn));
     if (m->model->field) keep_apart(d, m, q1);
@@ -701,17 +721,21 @@ static double resolved(void *self, size_t i) {
 }
 
 /* Eq. (39.12): layers creep within a step, which its accelerations hardly tell. */
-static void add_creep(const ZpMovingMember *m, double *e) {
+static void add_creep(ZpMovingMember *m, double *e) {
   const double error = zp_rod_maxwell_error(&m->model->rod, &m->eval.rod_step, m->model->L);
-  for (size_t k = 0; k < 2 * m->model->count && error > 0; k++)
-    if (m->assembly.equation[k] >= 0) e[m->assembly.equation[k]] += copysign(error, e[m->assembly.equation[k]]);
+  const int *equation = m->assembly.equation;
+  const size_t n = 2 * m->model->count;
+  for (size_t k = 0; k < n; k++)
+    m->moved[k] = equation[k] >= 0 ? e[equation[k]] : 0;
+  for (size_t k = 0; k < n && error > 0; k++) /* nodes of a platform have one height in common */
+    if (equation[k] >= 0) e[equation[k]] = m->moved[k] + copysign(error, m->moved[k]);
 }
 
 /* Of friction of bodies in the plane, and of layers that creep. */
 static void overlooks(void *self, const double *v0, double h, double *e) {
   const ZpDynamics *d = self;
   if (in_plane(d)) zp_links_add_overshoot(&d->links, d->pose0, d->pose1, v0, h, e);
-  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     if (m->model->rod.branch) add_creep(m, e);
 }
 
@@ -897,6 +921,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .attempt = attempt,
                             .resolved = resolved,
                             .overlooks = in_plane(d) || creeps(d) ? overlooks : NULL,
+                            .corrected = corrected,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }

@@ -37,6 +37,7 @@ typedef struct ZpMovingMember {
   double charge1;        /* and at the end of the last step */
   double *start, *end;   /* [2 stride] coordinates of nodes */
   double *own;           /* [own N] the laws' own unknowns in the present step */
+  double pressure;       /* of a pouch, at which the search of the present step stands, Pa */
   const double *mean_v;  /* [2 stride] mean velocity over the last step, m/s */
   double *force, *moved; /* [2 stride] N; work space */
   double *gap;           /* [N] gaps of the last force, m */

@@ -196,6 +196,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
     solve(s, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
+    if (s->system->corrected) s->system->corrected(s->system->self, s->r);
     s->counts.iterations++;
     *iterations = k + 1;
     bool chosen = !s->system->choose || s->system->choose(s->system->self, s->q);

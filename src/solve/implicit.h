@@ -58,6 +58,9 @@ typedef struct ZpImplicitSystem {
   /* e [n] += local errors of the step that the last residual is of, in its unknowns, which its accelerations do not
    * tell, such as of a force that turns around within it. May be NULL. */
   void (*overlooks)(void *self, const double *v0, double h, double *e);
+  /* Called with each correction x [n], before the next residual: a multiplier that is no unknown changes as the linear
+   * equations foresee. May be NULL. */
+  void (*corrected)(void *self, const double *x);
   /* Called after each correction, which has led to y1: chooses the branches of kinked laws for the next residual. False
    * while they change one by one, which may take many iterations. May be NULL. */
   bool (*choose)(void *self, const double *y1);

@@ -436,6 +436,7 @@ static void write_state(Cycles *c, const double *x) {
       q[k] = c->far * x[at.q + k];
       v[k] = speed_of(c, m->model, k) * x[at.v + k];
     }
+    zp_pouch_refill(m->model, q);
     zp_sim_lay_beads(m);
     if (m->state->U != m->state->base_U) zp_sim_close_balance(m);
     zp_sim_start_balance(m);

@@ -334,6 +334,8 @@ void zp_linear_cycle_close(ZpLinearCycle *l) {
 /* Of one member, in series relative to the platform that it hangs on at rest. */
 static void put_member(ZpLinearCycle *l, size_t which, double turns, ZpSim *sim) {
   const ZpModel *model = sim->model;
+  ZpRestMember *m = &l->rest.statics.member[which];
+  const ZpSpan mean = zp_span_at(m->q);
   double *q = zp_state_q(model, sim->state);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {
     double mean = outside_reserve(l, which, half);
@@ -346,10 +348,10 @@ static void put_member(ZpLinearCycle *l, size_t which, double turns, ZpSim *sim)
   at_phase(l, turns, false, l->x);
   zp_small_motion_nodes(&l->small, which, l->x, 1, q);
   if (zp_pouch_rank(model) > 0)
-    *zp_law_state(model, &zp_term_pouch, sim->state) =
-        zp_pouch_predicted(model, &l->rest.statics.member[which].eval, q, 1);
+    *zp_law_state(model, &zp_term_pouch, sim->state) = zp_pouch_predicted(model, &mean, &m->eval, q, 1);
   for (size_t i = 0; i < zp_coordinates(model); i++)
-    q[i] += l->rest.statics.member[which].q[i];
+    q[i] += m->q[i];
+  zp_pouch_refill(model, q);
 }
 
 void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {

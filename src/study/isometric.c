@@ -217,12 +217,17 @@ static void count_others(Holder *h) {
   }
 }
 
+/* A pouch is held before it contracts, and moves under voltage: its force without voltage is not sought. */
+static bool is_slack(const Holder *h) {
+  return h->at.model->topology.along;
+}
+
 static void summarize(Holder *h, const ZpNewtonInfo *info) {
   ZpResult *r = h->at.result;
   const ZpStatics *s = &h->at.rest.statics;
   bool found = h->outcome == ZP_CONVERGED, held = !isnan(h->unpowered);
   zp_result_add(r, "force_N", "N", found ? holding(h) - h->unpowered : NAN);
-  zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
+  zp_result_add(r, "force_unpowered_N", "N", held && !is_slack(h) ? h->unpowered : NAN);
   zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
   if (zp_is_hinge(&h->at.model->topology)) {
     zp_result_add(r, "angle_rad", "rad", held ? zp_statics_angle(s) : NAN);
@@ -240,6 +245,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->at.result;
+  if (is_slack(h)) zp_result_note(r, "force_unpowered_N is not sought: force_N is the whole force");
   zp_equilibria_note(&h->at, zp_drive_voltage(h->at.model));
   if (h->jumps > 0)
     zp_result_note(
@@ -321,7 +327,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
     h->outcome = ZP_NOT_SETTLED;
     return;
   }
-  h->unpowered = h->at.model->pouch.w > 0 ? 0 : holding(h); /* a pouch that contracts without voltage is slack */
+  h->unpowered = is_slack(h) ? 0 : holding(h);
   h->unpowered_moment = moment(h);
   zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members are closed */
   zp_rest_save(&h->at.rest, h->unpowered_state);
@@ -380,13 +386,14 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
   Holder *h = user;
   const double parts = zp_parts_abreast(h->at.model);
   zp_rest_go_to(&h->at.rest, h->unpowered_state);
-  bool slack = h->at.model->pouch.w > 0, rests = !slack && zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
-  double unpowered = rests ? parts * slope->reaction : slack ? 0 : NAN;
+  bool rests = !is_slack(h) && zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
+  double unpowered = rests ? parts * slope->reaction : NAN;
   double moment_without = rests ? moment_slope(h, slope) : NAN;
   zp_rest_go_to(&h->at.rest, h->answer);
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
   double torque = found ? moment_slope(h, slope) - moment_without : NAN;
-  zp_result_add_sensitivity(r, "force_N", slope->key, found ? parts * slope->reaction - unpowered : NAN);
+  zp_result_add_sensitivity(r, "force_N", slope->key,
+                            found ? parts * slope->reaction - (is_slack(h) ? 0 : unpowered) : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     zp_result_add_sensitivity(r, others[k].name, slope->key,

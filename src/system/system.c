@@ -21,7 +21,7 @@ void zp_system_destroy(ZpEval *e) {
 }
 
 ZpSpan zp_span_at(const double *q) {
-  return (ZpSpan){.start = q, .end = q, .share = 1, .suction = 1};
+  return (ZpSpan){.start = q, .end = q, .share = 1, .suction = 1, .modulus = zp_pouch_modulus};
 }
 
 ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, const double *v) {

@@ -13,7 +13,7 @@ static bool acts(const ZpModel *model) {
   return model->pouch.w > 0;
 }
 
-/* The pressure of the last step. */
+/* The pressure over the last step, with which the next search starts. */
 static size_t state(const ZpModel *model) {
   (void)model;
   return 1;
@@ -21,10 +21,6 @@ static size_t state(const ZpModel *model) {
 
 size_t zp_pouch_rank(const ZpModel *model) {
   return acts(model);
-}
-
-static double modulus_of(const ZpSpan *span) {
-  return zp_span_is_still(span) ? zp_pouch_modulus : zp_pouch_modulus_of_step;
 }
 
 double zp_memory_pressure(const ZpModel *model, const double *memory) {
@@ -52,18 +48,29 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpPouchParams *pouch = &model->pouch;
   double V = zp_pouch_volume(pouch, model->nodes, zp_nodes(model, span->end).x, e->plates.gap);
   find_rates(model, span, e);
-  e->pressure = span->pressure - modulus_of(span) * (V / pouch->volume - 1);
+  e->pressure = span->pressure - span->modulus * (V / pouch->volume - 1);
   for (size_t k = 0; k < zp_coordinates(model); k++)
     F[k] += e->pressure * e->by_volume[k];
   e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
 }
 
-double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *moved, double fraction) {
-  const ZpNodes by = zp_nodes(model, e->by_volume), to = zp_nodes(model, moved);
+double zp_pouch_predicted(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *moved,
+                          double fraction) {
+  const ZpNodes to = zp_nodes(model, moved);
+  const double *x = zp_nodes(model, span->end).x, *h = e->plates.gap;
   double change = 0; /* both terms of a node cancel but for a small part */
   for (size_t i = 0; i < model->nodes; i++)
-    change += by.x[i] * to.x[i] + by.y[i] * to.y[i];
-  return e->pressure - fraction * zp_pouch_modulus * change / model->pouch.volume;
+    change += zp_pouch_by_x(&model->pouch, model->nodes, h, i) * to.x[i] -
+              zp_pouch_by_h(&model->pouch, model->nodes, x, i) * to.y[i];
+  return e->pressure - fraction * span->modulus * change / model->pouch.volume;
+}
+
+void zp_pouch_refill(const ZpModel *model, double *q) {
+  if (!acts(model)) return;
+  const double *x = zp_nodes(model, q).x;
+  double *y = zp_forces(model, q).y, V = -zp_pouch_volume(&model->pouch, model->nodes, x, y);
+  for (size_t i = 0; i < model->nodes; i++)
+    y[i] *= model->pouch.volume / V;
 }
 
 /* Add minus a pressure times the second derivatives of the volume. */
@@ -80,7 +87,7 @@ static void bend(const ZpModel *model, double pressure, const ZpAssembly *a, ZpB
 
 /* The pressure follows the volume at the end: a term of rank one. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
-  const double k = modulus_of(span) / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
+  const double k = span->modulus / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
   double *u = zp_band_term(K, K->u, K->rank - 1), *v = zp_band_term(K, K->v, K->rank - 1);
   bend(model, both * span->pressure, a, K);
   for (size_t i = 0; i < model->nodes; i++) {

@@ -34,7 +34,8 @@ typedef struct ZpSpan {
   ZpCachedField beyond;      /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
-  double pressure; /* of a pouch: pressure from which that at the end is counted, Pa; not of an instant in motion */
+  double pressure, modulus;  /* of a pouch: pressure from which that at the end is counted, Pa, which an instant in
+                                motion does not have; modulus of eq. (40.6), Pa */
 } ZpSpan;
 
 typedef enum ZpSpanEnd { ZP_SPAN_START, ZP_SPAN_END } ZpSpanEnd;
@@ -124,14 +125,18 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
 double zp_term_meniscus_head(const ZpModel *model, double suction, double U, double g, double H, double level);
 double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
-/* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last
- * force, at rest, foresees after a fraction of a change of the coordinates [2 stride], Pa; number of terms of rank one
- * that it adds to the band. */
+/* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; the pressure that the last force
+ * over a span foresees after a fraction of a change of the coordinates [2 stride] at its end, Pa; number of terms of
+ * rank one that it adds to the band. */
 static inline size_t zp_pressure_place(const ZpModel *model) {
   return model->count - model->s;
 }
-double zp_pouch_predicted(const ZpModel *model, const ZpEval *eval, const double *moved, double fraction);
+double zp_pouch_predicted(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *moved,
+                          double fraction);
 size_t zp_pouch_rank(const ZpModel *model);
+
+/* Scale the heights of a pouch so that its films enclose its liquid again; for a start near a motion. */
+void zp_pouch_refill(const ZpModel *model, double *q);
 
 /* The pressure of a pouch in the memory of all laws, Pa; 0 without one. */
 double zp_memory_pressure(const ZpModel *model, const double *memory);
