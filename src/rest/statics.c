@@ -199,6 +199,13 @@ static void set_idle(ZpStatics *s, bool idle) {
     m->idle = idle;
 }
 
+/* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
+ * itself. */
+static bool is_found(ZpStatics *s, ZpNewtonInfo info) {
+  if (!zp_newton_good(info.end)) return false;
+  return info.iterations == 0 || zp_arrow_negative(&s->newton.K) == 0 || zp_statics_stable(s);
+}
+
 /* Start from the straight shape and let what acts by these shares grow, first by `step`, if the equilibrium is too far
  * away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a first share. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, double step) {
@@ -214,7 +221,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, doubl
     *one = *other = share;
     info = zp_statics_solve(s, STEP_ITERATIONS);
     iterations += info.iterations;
-    if (zp_newton_good(info.end)) {
+    if (is_found(s, info)) {
       reached = share;
       step *= 2;
       keep(s);
@@ -305,13 +312,6 @@ static ZpNewtonInfo let_menisci_draw(ZpStatics *s, ZpNewtonInfo info) {
        grown = draw && grow(s, &s->suction, 1, false, 1);
   s->suction = 1;
   return draw && !grown ? zp_statics_relax(s, 0) : info;
-}
-
-/* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
- * itself. */
-static bool is_found(ZpStatics *s, ZpNewtonInfo info) {
-  if (!zp_newton_good(info.end)) return false;
-  return info.iterations == 0 || zp_arrow_negative(&s->newton.K) == 0 || zp_statics_stable(s);
 }
 
 /* Continue from the equilibrium without contact to the one with contact, if there are faces. If the faces have passed
