@@ -146,7 +146,8 @@ bool zp_fit_goes_on(const ZpFit *fit) {
 }
 
 bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
-  static const double near = 1e-9, flat = 1e-9, rough = 0.02, weakest = 1e-12, strongest = 1e8;
+  static const double near = 1e-9, flat = 1e-9, weakest = 1e-12, strongest = 1e8;
+  const double rough = fit->enough > 0 ? 0.02 : 0;
   ZpFitPoint trial = {0};
   double damping = 1e-3;
   bool found = fit->n == 0, moves = zp_fit_open_point(fit, &trial);
@@ -161,7 +162,7 @@ bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
       if (found) break;
       zp_fit_go_to(fit, &trial);
       moves = trial.square < point->square && (trial.good || !point->good);
-      found = !moves && falls < rough * variance; /* what is left are errors of the runs */
+      found = !moves && falls < rough * variance;
     }
     damping = fmax(damping, weakest);
     if (!moves) break;

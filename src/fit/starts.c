@@ -169,7 +169,7 @@ static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
 /* The best minimum with accurate time steps. */
 static void refine(ZpFit *fit, ZpFitPoint *best) {
   enum { MOST = 60 };
-  fit->enough = 1e-6;
+  fit->enough = fit->runs > 0 ? 1e-6 : 0;
   find_tolerance(fit, best);
   zp_fit_go_to(fit, best);
   best->ended = zp_fit_descend(fit, NULL, MOST, best);

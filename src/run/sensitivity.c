@@ -446,7 +446,7 @@ void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
 
 double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user) {
-  return isfinite(rates->key[k].lost) ? NAN : rate_of(&rates->key[k], number, user);
+  return rate_of(&rates->key[k], number, user);
 }
 
 ZpCurrents zp_run_rate_of_currents(const ZpRunSensitivity *rates, size_t k) {

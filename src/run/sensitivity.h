@@ -51,7 +51,8 @@ void zp_run_sensitivity_begin(ZpRunSensitivity *rates);
 void zp_run_sensitivity_look_ahead(ZpRunSensitivity *rates, double end_time);
 void zp_run_sensitivity_follow(ZpRunSensitivity *rates);
 
-/* The derivative by the k-th key of a number that a simulation has now; NAN if it has ceased to exist. */
+/* The derivative by the k-th key of a number that a simulation has now. Once it has ceased to exist (key[k].lost),
+ * only of numbers that have been kept from before, such as the zip time. */
 double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user);
 

@@ -48,7 +48,8 @@ static void take_row(ZpSim *sim, void *user) {
   for (size_t s = 0; s < trace->signals; s++) {
     *row++ = zp_sim_get(sim, trace->signal[s]);
     for (size_t k = 0; k < trace->keys; k++)
-      *row++ = r->rates ? zp_run_rate_of(r->rates, k, signal_of, trace->signal[s]) : NAN;
+      *row++ =
+          r->rates && isinf(r->rates->key[k].lost) ? zp_run_rate_of(r->rates, k, signal_of, trace->signal[s]) : NAN;
   }
 }
 
