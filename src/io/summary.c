@@ -11,18 +11,22 @@
 #include "sample/statistics.h"
 #include "study/result.h"
 
-/* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars, so that a sweep has columns, but arrays in JSON. */
+/* frequency_1_Hz, frequency_2_Hz, ..., and the like: scalars, so that a sweep has columns, but arrays in JSON. */
 typedef struct List {
+  ZpShows of;
   const char *name, *pattern; /* format of its scalars, for sscanf */
 } List;
 
-static const List lists[] = {{"frequencies_Hz", "frequency_%d_Hz%n"},
-                             {"frequencies_error_Hz", "frequency_%d_error_Hz%n"}};
+static const List lists[] = {{ZP_SHOWS_modes, "frequencies_Hz", "frequency_%d_Hz%n"},
+                             {ZP_SHOWS_modes, "frequencies_error_Hz", "frequency_%d_error_Hz%n"},
+                             {ZP_SHOWS_plan, "chosen_rows", "row_%d%n"},
+                             {ZP_SHOWS_plan, "chosen_files", "file_%d%n"}};
 enum { LISTS = sizeof lists / sizeof lists[0] };
 
-static bool is_of(const List *list, const ZpScalar *scalar) {
+static bool is_of(const List *list, ZpStudy study, const ZpScalar *scalar) {
   int mode, end = 0;
-  return sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 && !scalar->name[end];
+  return zp_study_shows(study) == list->of && sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 &&
+         !scalar->name[end];
 }
 
 /* The name of a key, for as long as the block around it. */
@@ -101,18 +105,18 @@ static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
 
 static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
   const ZpScalar *end = result->scalar + result->scalars;
-  const size_t count = zp_study_shows(result->study) == ZP_SHOWS_modes ? LISTS : 0;
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < LISTS; k++) {
+    if (zp_study_shows(result->study) != lists[k].of) continue;
     zp_json_open(json, lists[k].name, '[');
     for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++)
-      if (is_of(&lists[k], scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
+      if (is_of(&lists[k], result->study, scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
     zp_json_close(json, ']');
   }
   Open open = {""};
   for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++) {
     bool listed = false;
-    for (size_t k = 0; k < count; k++)
-      listed |= is_of(&lists[k], scalar);
+    for (size_t k = 0; k < LISTS; k++)
+      listed |= is_of(&lists[k], result->study, scalar);
     if (!listed && !is_high_end(scalar)) put_nested(json, &open, scalar);
   }
   close_groups(json, &open, "");
