@@ -110,7 +110,8 @@ static double gain_of(const ZpSelection *of, const ZpInformation *before, size_t
   return log(whole / part);
 }
 
-/* The gains are those of (12.10), decrease, and the determinant afterwards is their product. */
+/* The gains are those of (12.10), the largest one of those chosen comes first, and the determinant afterwards is their
+ * product. */
 TESTS(determinant_is_the_product_of_gains, 0, 5) {
   enum { CHOSEN = 6 };
   Linear linear;
@@ -120,6 +121,9 @@ TESTS(determinant_is_the_product_of_gains, 0, 5) {
   draw(&linear, (uint64_t)_i + 1);
   ck_assert(zp_selection_best(&linear.selection, CHOSEN, chosen));
   ZpInformation sum = linear.selection.start;
+  for (size_t k = 1; k < CHOSEN; k++)
+    ck_assert_double_ge(zp_selection_value_of(&linear.selection, chosen, 1),
+                        zp_selection_value_of(&linear.selection, chosen + k, 1));
   for (size_t k = 0; k < CHOSEN; k++) {
     const double gain = gain_of(&linear.selection, &sum, chosen[k]),
                  before = zp_selection_value(&linear.selection, &sum);
@@ -299,6 +303,21 @@ TEST(fit_has_the_expected_errors) {
           number(fitted, "insulator.permittivity_standard_error"), 7e-4);
 }
 
+/* The least number of even rows that limit the keys as much as a plan. */
+TEST(even_rows_for_as_much) {
+  ZpActuatorDef def = planned("ribbon.young_modulus, insulator.permittivity", 5);
+  write_grid();
+  put(&def, "calibrate.y", "stroke_mm");
+  const ZpResult *few = plan(&def);
+  def.plan.budget = 20;
+  const ZpTable *all = plan(&def)->series;
+  const double error = number(few, "planned_relative_error");
+  const size_t even = (size_t)number(few, "even_rows");
+  for (size_t k = 0; k + 1 < even; k++)
+    ck_assert_double_gt(zp_table_get(all, k, "even_relative_error"), error);
+  ck_assert_double_le(zp_table_get(all, even - 1, "even_relative_error"), error);
+}
+
 /* Likewise beside data, where the zero of each file is unknown: now as a fit to the data alone, then as one to both. */
 TEST(fit_beside_data_has_the_expected_errors) {
   ZpActuatorDef def = planned("ribbon.young_modulus, insulator.permittivity", 4);
@@ -343,6 +362,11 @@ TEST(residuals_tell_the_deviation) {
   ck_near(number(expected, "ribbon.young_modulus_half_width_95"), zp_fit_student(3) * number(before, now), 1e-6);
   ck_near(number(expected, "ribbon.young_modulus_planned_half_width_95"),
           zp_fit_student(5) * number(expected, "ribbon.young_modulus_planned_standard_error"), 1e-6);
+  char sigma[64];
+  snprintf(sigma, sizeof sigma, "stroke = %.17g m", sqrt(4.0 / 3) * number(before, "residual_rms_m"));
+  put(&def, "calibrate.sigma", sigma);
+  ck_near(number(plan(&def), "ribbon.young_modulus_planned_standard_error"),
+          number(expected, "ribbon.young_modulus_planned_standard_error"), 1e-6);
 }
 
 /* Strokes without voltage tell the modulus; the permittivity keeps its given value, and counts as known to it. */
@@ -361,6 +385,8 @@ TEST(key_that_data_do_not_limit_keeps_its_value) {
   ck_near(number(result, "ribbon.young_modulus"), 200e9, 1e-4);
   ck_near(number(result, "insulator.permittivity"), 4.62, 1e-9);
   ck_near(number(result, "insulator.permittivity_standard_error"), 4.62, 1e-9);
+  ck_near(number(result, "relative_error"),
+          sqrt(number(result, "ribbon.young_modulus_standard_error") / number(result, "ribbon.young_modulus")), 1e-9);
   ck_assert_ptr_nonnull(strstr(result->note[0], "do not limit all keys"));
 }
 

@@ -103,6 +103,27 @@ static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
   }
 }
 
+/* Is it neither in a list nor the second number of an interval? */
+static bool stands_alone(const ZpResult *result, const ZpScalar *scalar) {
+  bool listed = false;
+  for (size_t k = 0; k < LISTS; k++)
+    listed |= is_of(&lists[k], result->study, scalar);
+  return !listed && !is_high_end(scalar);
+}
+
+/* Has no scalar before it a name that begins with the same `length` letters? */
+static bool is_first_of_group(const ZpResult *result, const ZpScalar *scalar, size_t length) {
+  for (const ZpScalar *before = result->scalar; before < scalar; before++)
+    if (strncmp(before->name, scalar->name, length) == 0) return false;
+  return true;
+}
+
+/* All scalars of a group, the first one and those that follow: an object of JSON has each name once. */
+static void put_group(ZpJson *json, Open *open, const ZpResult *result, const ZpScalar *first, size_t length) {
+  for (const ZpScalar *scalar = first; scalar < result->scalar + result->scalars; scalar++)
+    if (strncmp(scalar->name, first->name, length) == 0 && stands_alone(result, scalar)) put_nested(json, open, scalar);
+}
+
 static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
   const ZpScalar *end = result->scalar + result->scalars;
   for (size_t k = 0; k < LISTS; k++) {
@@ -114,10 +135,11 @@ static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult
   }
   Open open = {""};
   for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++) {
-    bool listed = false;
-    for (size_t k = 0; k < LISTS; k++)
-      listed |= is_of(&lists[k], result->study, scalar);
-    if (!listed && !is_high_end(scalar)) put_nested(json, &open, scalar);
+    const size_t length = strcspn(scalar->name, ".");
+    const bool grouped = scalar->name[length] != 0;
+    if (!stands_alone(result, scalar)) continue;
+    if (!grouped) put_nested(json, &open, scalar);
+    if (grouped && is_first_of_group(result, scalar, length + 1)) put_group(json, &open, result, scalar, length + 1);
   }
   close_groups(json, &open, "");
   if (result->sensitivities > 0) put_sensitivity(json, scenario, result);
