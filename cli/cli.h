@@ -41,6 +41,7 @@ typedef struct Options {
   int sets;
   const char *directory; /* folder or file of -o; NULL: not given */
   const char *templates; /* folder of --templates; NULL: not given */
+  const char *budget;    /* of --budget; NULL: not given */
   int jobs;              /* processors to use; 0: all */
   int fmi;               /* requested version of FMI; 0: none */
   const Crew *crew;      /* NULL: threads of this process compute */

@@ -55,6 +55,9 @@ static int take_option(int letter, const char **set, Options *options) {
   case 't':
     options->templates = optarg;
     break;
+  case 'b':
+    options->budget = optarg;
+    break;
   case 'n':
     if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
     break;

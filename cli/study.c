@@ -29,6 +29,12 @@ static ZpStatus check_templates(const char *folder, ZpError *err) {
   return ZP_BAD_INPUT;
 }
 
+static ZpStatus set_budget(ZpScenario *scenario, const char *number, ZpError *err) {
+  char assignment[64];
+  snprintf(assignment, sizeof assignment, "plan.budget=%s", number);
+  return zp_scenario_set(scenario, assignment, err);
+}
+
 ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario **made, ZpError *err) {
   ZpScenario *scenario = *made = zp_scenario_create();
   *err = (ZpError){ZP_MACHINE, "no memory"};
@@ -37,6 +43,7 @@ ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario **mad
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
   if (status == ZP_OK && (o->given & OPTION_NO_PLOTS)) status = zp_scenario_set(scenario, "output.plots=false", err);
+  if (status == ZP_OK && o->budget) status = set_budget(scenario, o->budget, err);
   if (status == ZP_OK && o->templates) status = check_templates(o->templates, err);
   if (status == ZP_OK && !(o->given & OPTION_QUIET)) note_bare_numbers(scenario);
   if (!study || status != ZP_OK) return status;

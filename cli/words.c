@@ -14,8 +14,12 @@ const Option word_options[OPTION_COUNT] = {
 #include "words.def"
 };
 
+/* Options of studies beside these, by their files. */
+enum { OF_none = 0, OF_course = 0, OF_reference = 0, OF_measurements = 0, OF_candidates = OPTION_BUDGET };
+
 const Command word_commands[] = {
-#define ZP_STUDY(enumerator, word, shows, files, help) {#word, MAY_SCENARIO, STUDY_OPTIONS | ALL, help, NULL},
+#define ZP_STUDY(enumerator, word, shows, files, help)                                                                 \
+  {#word, MAY_SCENARIO, STUDY_OPTIONS | OF_##files | ALL, help, NULL},
 #include <zipact/studies.def>
 #define ZP_COMMAND(word, argument, options, help) {#word, argument, (options) | ALL, help, cli_##word},
 #include "words.def"

@@ -1,7 +1,7 @@
 %ZIPACT  Simulation of electrostatic zipping actuators: studies, and stepping by hand.
 %
 %   RESULT = ZIPACT(STUDY, KEY, VALUE, ...) runs a study: stationary, equilibrium, limits,
-%   isometric, profile, modes, actuate, cycle or calibrate.
+%   isometric, profile, modes, actuate, cycle, calibrate or plan.
 %
 %      rest = zipact('equilibrium', 'load.mass', '20 g', 'drive.voltage', 6e3)
 %      rest.release_voltage_V                      % a number of summary.json

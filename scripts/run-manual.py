@@ -31,6 +31,7 @@ PICTURES = {
     "sensitivity.svg": "counts/plots/tornado.svg",
     "sensitivity-zip.svg": "counts-zip/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
+    "plan.svg": "plan/plots/plan.svg",
     "fits.svg": "bench/plots/fits.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",

@@ -35,7 +35,7 @@ TEST(tables_as_spreadsheets_have_them) {
        *two = put_file("two.csv", "stroke_m,Gewicht\n0.5,7\n"), paths[256];
   ZpDataFiles files;
   snprintf(paths, sizeof paths, "%s; %s", one, two);
-  ck_ok(zp_data_read_all("data.file", paths, "Gewicht = Load_g", &files, &err));
+  ck_ok(zp_data_read_all("data.file", paths, "Gewicht = Load_g", true, &files, &err));
   ck_assert_uint_eq(files.count, 2);
   const ZpData *first = &files.file[0], *second = &files.file[1];
   ck_assert(first->rows == 2 && first->columns == 3 && second->rows == 1);

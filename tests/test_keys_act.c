@@ -185,6 +185,11 @@
   "study=calibrate actuator.kind=ribbon actuator.right_end=guided mesh.nodes=11 data.file=watched.csv "                \
   "calibrate.fit=ribbon.young_modulus calibrate.starts=1"
 
+/* Strokes of a strip that could be measured, to 1 um, of which one is chosen. */
+#define PLANNED                                                                                                        \
+  "study=plan actuator.kind=ribbon actuator.right_end=guided ribbon.density=0 mesh.nodes=21 plan.budget=1 "            \
+  "calibrate.fit=ribbon.young_modulus calibrate.y=stroke_um calibrate.sigma=stroke=1um plan.candidates=light.csv"
+
 /* -- what they lead to ----------------------------------------------------------------------------- */
 
 typedef enum Change {
@@ -432,6 +437,8 @@ static void write_files(void) {
   write_strokes("soft.csv", 100e9, 0);
   write_strokes("stiff.csv", 400e9, 0);
   write_strokes("raised.csv", 100e9, 1);
+  write_file("light.csv", "load_mg\n5\n5\n5\n5\n");
+  write_file("heavy.csv", "load_mg\n10\n");
   write_file("watched.csv", "time_ms,stroke_mm\n0,1\n1,1\n2,1\n3,1\n");
 }
 

@@ -157,7 +157,7 @@ TESTS(layouts_are_read, 0, LENGTH_OF(layouts)) {
   ZpDataFiles files;
   char told[160];
   write_file("layout.csv", layout->text);
-  ck_ok(zp_data_read_all("data.file", "layout.csv", layout->renamed, &files, &err));
+  ck_ok(zp_data_read_all("data.file", "layout.csv", layout->renamed, true, &files, &err));
   const ZpData *data = files.file;
   ck_assert_uint_eq(data->rows, layout->rows);
   zp_data_describe(data, told, sizeof told);
@@ -173,7 +173,7 @@ static ZpStatus read_strokes(const char *text, const char *renamed, ZpError *err
   ZpDataFiles files;
   double value[8];
   write_file("layout.csv", text);
-  ZpStatus status = zp_data_read_all("data.file", "layout.csv", renamed, &files, err);
+  ZpStatus status = zp_data_read_all("data.file", "layout.csv", renamed, true, &files, err);
   if (status == ZP_OK) status = zp_data_read_column(files.file, "stroke", "m", "such", value, err);
   zp_data_files_destroy(&files);
   return status;

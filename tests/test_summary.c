@@ -62,6 +62,19 @@ TEST(interrupted_sweep_counts_its_cases) {
   json_decref(summary);
 }
 
+/* Keys of a group that others come between are in one object: ribbon.young_modulus, medium.permittivity,
+ * ribbon.thickness. */
+TEST(group_is_one_object) {
+  ZpResult *result = result_of(ZP_STUDY_CALIBRATE, ZP_CONVERGED, "ribbon.young_modulus", 3);
+  zp_result_add(result, "medium.permittivity", "1", 4);
+  zp_result_add(result, "ribbon.thickness", "1", 5);
+  json_t *summary = summary_of_cases(new_scenario(), &result, 1), *ribbon = json_object_get(summary, "ribbon");
+  ck_assert_double_eq(number_in(ribbon, "young_modulus"), 3);
+  ck_assert_double_eq(number_in(ribbon, "thickness"), 5);
+  ck_assert_double_eq(number_in(json_object_get(summary, "medium"), "permittivity"), 4);
+  json_decref(summary);
+}
+
 TEST(rows_say_which_values_are_automatic) {
   ZpScenario *scenario = SCENARIO("solver.tolerance=[auto, 1e-5]");
   ZpResult *result[] = {result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1),

@@ -38,6 +38,14 @@ CASES = {
         calibrate__x="load_g",
         calibrate__y="stroke_mm",
     ),
+    "plan": dict(
+        liquid__model="none",
+        plan__candidates=os.path.join(DATA, "plan-strokes.csv"),
+        plan__budget=3,
+        calibrate__fit="ribbon.young_modulus",
+        calibrate__sigma="stroke = 50 um",
+        calibrate__y="stroke_mm",
+    ),
 }
 
 

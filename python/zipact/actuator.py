@@ -53,7 +53,8 @@ class Keys(dict[str, Key]):
 GROUPS = {"body": "bodies", "joint": "joints", "member": "members", "spring": "springs"}  # of a network
 KEYS = Keys({row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()})
 
-FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
+SEVERAL_FILES = ("data.file", "plan.candidates")
+FILES = (*SEVERAL_FILES, "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
 
 
 def key_name(keyword: str) -> str:
@@ -101,7 +102,7 @@ def plain_value(name: str, value: Any) -> Any:
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if name in FILES and isinstance(value, str) and value:
-        paths = value.split(";") if name == "data.file" else [value]  # it may name several
+        paths = value.split(";") if name in SEVERAL_FILES else [value]
         value = "; ".join(os.path.abspath(path.strip(" ")) for path in paths)
     return value
 

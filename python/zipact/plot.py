@@ -189,6 +189,15 @@ def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     return ax
 
 
+def plan(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    """Expected error of the fitted keys over the number of measurements, planned and evenly spaced."""
+    ax = new_axes(ax, "number of measurements", "relative standard error / %")
+    ax.semilogy(table["rank"], 100 * table["even_relative_error"], "o-", color=RED, fillstyle="none", label="evenly spaced")
+    ax.semilogy(table["rank"], 100 * table["relative_error"], "o-", color=BLUE, label="planned")
+    ax.legend()
+    return ax
+
+
 STUDIES = {
     "actuate": actuate,
     "calibrate": calibrate,
@@ -197,6 +206,7 @@ STUDIES = {
     "isometric": isometric,
     "limits": limits,
     "modes": modes,
+    "plan": plan,
     "profile": profile,
     "stationary": stationary,
 }

@@ -6,6 +6,7 @@
 #include "def/def.h"
 #include "fit/data.h"
 #include "fit/fit.h"
+#include "fit/plan.h"
 #include "fit/reference.h"
 #include "fit/time_limit.h"
 #include "io/drive_table.h"
@@ -116,6 +117,14 @@ static ZpStatus with_measurements(ZpStudy study, const ZpActuatorDef *def, const
   return zp_fit_run(def, hooks, result, err);
 }
 
+/* -- candidates: measurements that could be made ------------------------------------------------------ */
+
+static ZpStatus with_candidates(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                                ZpError *err) {
+  (void)study;
+  return zp_plan_run(def, hooks, result, err);
+}
+
 /* -- which study takes which ------------------------------------------------------------------------- */
 
 typedef ZpStatus (*WithFiles)(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
@@ -138,8 +147,8 @@ ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
 /* Can a study with a valid Def run without files? */
 static bool needs_no_file(ZpStudy study, const ZpActuatorDef *def) {
   const bool known = (int)study >= 0 && (int)study < ZpStudy_COUNT && def;
-  return known && with_files[study] != with_measurements && *def->data.file == 0 && !zp_def_takes_table(def) &&
-         def->initial.state != ZP_INITIAL_CHECKPOINT;
+  return known && with_files[study] != with_measurements && with_files[study] != with_candidates &&
+         *def->data.file == 0 && !zp_def_takes_table(def) && def->initial.state != ZP_INITIAL_CHECKPOINT;
 }
 
 /* Wrong keys are reported before their files are read; a missing file is reported by the study. */

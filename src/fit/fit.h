@@ -60,10 +60,20 @@ typedef struct ZpFitSet {
   int other_key[ZP_FIT_OTHERS];
   double *other[ZP_FIT_OTHERS]; /* [rows] SI */
   size_t first, rows;           /* first row of the set among all rows, and their number */
+  size_t file, before;          /* of which file, and how many rows of that come before its first */
 } ZpFitSet;
+
+/* Which names of calibrate.x and .y (bits), and which kinds of measurement (bits of ZpFitKind; of ZP_FIT_KINDS: times),
+ * files have. */
+typedef struct ZpFitNamed {
+  unsigned x, y, kinds;
+} ZpFitNamed;
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;
+  bool planned;       /* its rows are possible measurements: they have no values, y is NAN */
+  const char *source; /* the key that names its files */
+  ZpFitNamed named;   /* by its files, and by those of the fit that was opened before */
   const ZpHooks *hooks;
   int n, keys; /* number of parameters: first keys, then shifts; their values are z times `start` */
   int key[ZP_FIT_KEYS];
@@ -95,10 +105,16 @@ bool zp_fit_goes_on(const ZpFit *fit);
 
 /* Read and check the keys and data of a fit. To be closed whatever the status is. */
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
+
+/* Likewise of a plan: first the data that there are, where some names may be those of candidates, then the candidates
+ * of plan.candidates. `data` NULL: there are none. */
+ZpStatus zp_fit_open_present(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
+ZpStatus zp_fit_open_candidates(const ZpActuatorDef *def, const ZpFit *data, ZpFit *fit, ZpError *err);
 void zp_fit_close(ZpFit *fit);
 
-/* Read the files of measurements into the sets and rows of `fit`, whose keys are known. */
-ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err);
+/* Read the files of measurements into the sets and rows of `fit`, whose keys are known. `all`: each name in the keys of
+ * calibrate must be one that a file has. */
+ZpStatus zp_fit_read_sets(ZpFit *fit, bool all, ZpError *err);
 
 /* Is this key a real number, which can be fitted and set by a column? */
 bool zp_fit_takes(int key);

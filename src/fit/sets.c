@@ -22,16 +22,17 @@ typedef struct Names {
   char text[ZP_TEXT_SIZE];
   const char *name[NAMES_MOST];
   int count;
-  bool used[NAMES_MOST];
+  unsigned used; /* bits of those that a file has */
 } Names;
 
 /* A file, with its columns that were set and measured, and all that are used. */
 typedef struct Measured {
   const ZpData *data;
-  int x, y[NAMES_MOST], columns;
-  bool is_record; /* x is time: the rows are of one run, */
-  size_t run;     /* this one */
-  bool *used;     /* [columns of the file] */
+  int x, y[NAMES_MOST], columns; /* y is -1 where a planned measurement has no column */
+  const char *name[NAMES_MOST];  /* [columns] of what is measured */
+  bool is_record;                /* x is time: the rows are of one run, */
+  size_t run;                    /* this one */
+  bool *used;                    /* [columns of the file] */
 } Measured;
 
 typedef struct Reading {
@@ -39,6 +40,7 @@ typedef struct Reading {
   ZpDataFiles files;
   Measured *measured; /* [files.count] */
   size_t sets;        /* of all files */
+  bool all;           /* each name must be one that a file has */
   Names x, y;
   double sigma[ZP_FIT_KINDS]; /* of calibrate.sigma, SI; NAN: not given */
   ZpError *err;
@@ -66,7 +68,7 @@ static int find_columns(const ZpData *data, Names *names, int *columns) {
   for (int i = 0; i < names->count; i++) {
     const int column = zp_data_column(data, names->name[i]);
     if (column < 0) continue;
-    names->used[i] = true;
+    names->used |= 1u << i;
     columns[found++] = column;
   }
   return found;
@@ -76,7 +78,13 @@ static ZpStatus fail_column(const Names *names, const char *name, const char *pa
   return zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": no such column in %.200s", names->key, name, path);
 }
 
-static ZpStatus fail_measured(const Names *names, const char *name, const ZpData *data, ZpError *err) {
+static ZpStatus fail_measured(const ZpFit *fit, const Names *names, const char *name, const ZpData *data,
+                              ZpError *err) {
+  if (fit->planned)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "plan.candidates: %.200s: no column is measured; calibrate.y must name what is measured, such as "
+                   "stroke_mm",
+                   data->path);
   if (names->count > 0) return fail_column(names, name, data->path, err);
   return zp_fail(err, ZP_BAD_INPUT,
                  "%.200s:%d: no column of this record is measured: stroke, displacement, opening, capacitance or "
@@ -87,7 +95,7 @@ static ZpStatus fail_measured(const Names *names, const char *name, const ZpData
 /* Refuse a name that no file has: it is misspelt. */
 static ZpStatus check_names(const Reading *r, const Names *names) {
   for (int i = 0; i < names->count; i++)
-    if (!names->used[i])
+    if (!(names->used >> i & 1))
       return fail_column(names, names->name[i], r->files.count > 1 ? "any file" : r->files.file->path, r->err);
   return ZP_OK;
 }
@@ -127,9 +135,35 @@ static void take_usual_y(const ZpData *data, Measured *measured) {
     if (measured->is_record ? is_of_run(data->cell[column]) : column == 1) measured->y[measured->columns++] = column;
 }
 
+/* Without a column for it, a row of possible measurements is measured in all that calibrate.y names. */
+static void take_absent_y(const Names *names, Measured *measured) {
+  for (; measured->columns < names->count; measured->columns++) {
+    measured->y[measured->columns] = -1;
+    measured->name[measured->columns] = names->name[measured->columns];
+  }
+}
+
+/* The columns of what was measured, or would be. */
+static ZpStatus find_y(Reading *r, const ZpData *data, Measured *measured) {
+  if (r->y.count > 0)
+    measured->columns = find_columns(data, &r->y, measured->y);
+  else
+    take_usual_y(data, measured);
+  for (int i = 0; i < measured->columns; i++)
+    measured->name[i] = data->cell[measured->y[i]];
+  if (measured->columns == 0 && r->fit->planned) {
+    take_absent_y(&r->y, measured);
+    r->y.used |= (1u << r->y.count) - 1;
+  }
+  if (measured->columns > 0) return ZP_OK;
+  return fail_measured(r->fit, &r->y, r->fit->def->calibrate.y, data, r->err);
+}
+
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
 static ZpStatus find_measured(Reading *r) {
   ZpFit *fit = r->fit;
+  r->x.used = fit->named.x;
+  r->y.used = fit->named.y;
   for (size_t i = 0; i < r->files.count; i++) {
     const ZpData *data = &r->files.file[i];
     Measured *measured = &r->measured[i];
@@ -142,11 +176,8 @@ static ZpStatus find_measured(Reading *r) {
       return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
     measured->is_record = is_time(data->cell[x[0]]);
-    if (r->y.count > 0)
-      measured->columns = find_columns(data, &r->y, measured->y);
-    else
-      take_usual_y(data, measured);
-    if (measured->columns == 0) return fail_measured(&r->y, fit->def->calibrate.y, data, r->err);
+    ZpStatus status = find_y(r, data, measured);
+    if (status != ZP_OK) return status;
     if (measured->is_record) measured->run = fit->runs++;
     if (measured->is_record && measured->columns > ZP_TRACE_SIGNALS)
       return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: more than %d measured columns", data->path, ZP_TRACE_SIGNALS);
@@ -154,8 +185,10 @@ static ZpStatus find_measured(Reading *r) {
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;
   }
-  ZpStatus status = check_names(r, &r->x);
-  return status == ZP_OK ? check_names(r, &r->y) : status;
+  fit->named.x = r->x.used;
+  fit->named.y = r->y.used;
+  ZpStatus status = r->all ? check_names(r, &r->x) : ZP_OK;
+  return status == ZP_OK && r->all ? check_names(r, &r->y) : status;
 }
 
 static bool is_measured(const Measured *measured, int column) {
@@ -227,7 +260,7 @@ static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const 
   for (int i = 0; i + 1 < set->others; i++)
     twice |= set->other_key[i] == key;
   if (twice)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", column,
+    return zp_fail(err, ZP_BAD_INPUT, "%s: column %.60s: another column sets %s as well", fit->source, column,
                    ZP_KEY_NAME(key));
   return fail_fitted(fit, key, column, err);
 }
@@ -263,7 +296,7 @@ static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
 /* The voltage that drove a record. */
 static ZpStatus read_drive(ZpFit *fit, ZpFitRun *run, const ZpData *data, int column, const Unit *unit, ZpError *err) {
   if (run->rows > 0)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets drive.voltage as well",
+    return zp_fail(err, ZP_BAD_INPUT, "%s: column %.60s: another column sets drive.voltage as well", fit->source,
                    data->cell[column]);
   run->rows = data->rows;
   run->time = calloc(2 * data->rows, sizeof *run->time);
@@ -284,8 +317,8 @@ static ZpStatus read_condition(ZpFit *fit, ZpFitRun *run, const ZpData *data, in
                        data->path, zp_data_line(data, i), data->cell[column]);
   for (int i = 0; i < run->keys && status == ZP_OK; i++)
     if (run->key[i] == key)
-      status = zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", data->cell[column],
-                       ZP_KEY_NAME(key));
+      status = zp_fail(err, ZP_BAD_INPUT, "%s: column %.60s: another column sets %s as well", fit->source,
+                       data->cell[column], ZP_KEY_NAME(key));
   if (status == ZP_OK && run->keys == ZP_FIT_OTHERS)
     status = zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
   if (status == ZP_OK) status = fail_fitted(fit, key, data->cell[column], err);
@@ -357,7 +390,7 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
 /* Study limits searches for pull-in and release up to drive.voltage. */
 static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double measured, ZpError *reason) {
   bool is_limit = kind == ZP_FIT_PULL_IN || kind == ZP_FIT_RELEASE;
-  if (!is_limit || measured < def->drive.voltage) return ZP_OK;
+  if (!is_limit || isnan(measured) || measured < def->drive.voltage) return ZP_OK;
   return zp_fail(reason, ZP_BAD_INPUT,
                  "the measured %s is %g V, but the model searches up to drive.voltage = %g V; raise drive.voltage",
                  kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", measured, def->drive.voltage);
@@ -474,8 +507,8 @@ static ZpStatus read_sigma_column(ZpFit *fit, const ZpFitSet *set, const ZpData 
   const char *name = data->cell[column], *unit = zp_fit_number[set->kind].unit;
   ZpUnitScale scale;
   if (!find_sigma_unit(fit, name, set->kind, &scale))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "data.file: column %.60s: its unit must be one of the measured quantity, such as %s", name, unit);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: column %.60s: its unit must be one of the measured quantity, such as %s",
+                   fit->source, name, unit);
   for (size_t i = 0; i < set->rows; i++) {
     ZpStatus status = zp_data_number(data, i, (size_t)column, &sigma[i], err);
     if (status != ZP_OK) return status;
@@ -506,14 +539,6 @@ static ZpStatus read_sigma(const Reading *r, const ZpFitSet *set, const Measured
   return ZP_OK;
 }
 
-/* The path of the file of a set: the sets are in the order of the files. */
-static const char *path_of(const Reading *r, const ZpFitSet *set) {
-  size_t file = 0;
-  for (int before = (int)(set - r->fit->set); before >= r->measured[file].columns; file++)
-    before -= r->measured[file].columns;
-  return r->measured[file].data->path;
-}
-
 /* Either all rows have a standard deviation, or none has one and all are of one kind: otherwise the relative weight of
  * a millimetre and a volt is unknown. */
 static ZpStatus check_sigmas(Reading *r) {
@@ -533,19 +558,21 @@ static ZpStatus check_sigmas(Reading *r) {
   }
   const ZpFitNumber *of = &zp_fit_number[without->kind];
   return zp_fail(r->err, ZP_BAD_INPUT,
-                 "data.file: a fit to %s requires standard deviations of all, but %s of %.200s has none; add a column "
+                 "%s: a fit to %s requires standard deviations of all, but %s of %.200s has none; add a column "
                  "sigma_%s_%s, or give calibrate.sigma = \"%s = ... %s\"",
-                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column,
-                 path_of(r, without), of->column, of->unit, of->column, of->unit);
+                 fit->source, zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column,
+                 r->measured[without->file].data->path, of->column, of->unit, of->column, of->unit);
+}
+
+/* Do these files have a kind of measurement, or may others have it? */
+static bool may_have(const Reading *r, int kind) {
+  return !r->all || r->fit->named.kinds >> kind & 1;
 }
 
 /* Refuse calibrate.sigma for a quantity that is not measured: its name is misspelt or left over. */
 static ZpStatus check_sigma_key(const Reading *r) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
-    bool measured = isnan(r->sigma[kind]);
-    for (size_t i = 0; i < r->fit->sets; i++)
-      measured = measured || (int)r->fit->set[i].kind == kind;
-    if (!measured)
+    if (!isnan(r->sigma[kind]) && !may_have(r, kind))
       return zp_fail(r->err, ZP_BAD_INPUT, "calibrate.sigma: %s is not measured: calibrate.y names no such column",
                      zp_fit_number[kind].column);
   }
@@ -565,9 +592,9 @@ static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, ZpUnitScale *
   return false;
 }
 
-static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
+/* `column` -1: none; it has not been measured. */
+static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, const char *name, int column, ZpError *err) {
   Unit unit = {.per = 1};
-  const char *name = data->cell[column];
   if (!find_kind(fit, set, name, &unit.scale))
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -577,7 +604,9 @@ static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
         data->path, data->line[0], name, name);
   if (set->kind == ZP_FIT_OPENING && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
-  return read_column(fit, data, column, -1, &unit, fit->y + set->first, err);
+  for (size_t i = 0; i < set->rows && fit->planned; i++)
+    fit->y[set->first + i] = NAN;
+  return fit->planned ? ZP_OK : read_column(fit, data, column, -1, &unit, fit->y + set->first, err);
 }
 
 static bool is_length(const char *name) {
@@ -591,20 +620,29 @@ static bool is_force(const char *name) {
          zp_data_unit(name, "load", "N", &scale);
 }
 
-static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int y) {
+/* Column `which` of what a file measures. */
+static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int which) {
   const ZpData *data = measured->data;
-  int x = measured->x;
-  if (is_length(data->cell[x]) && is_force(data->cell[y])) {
-    int stroke = x; /* the model computes a stroke from a force, whichever of the two was set on the bench */
+  int x = measured->x, y = measured->y[which];
+  const char *name = measured->name[which];
+  const bool turned = is_length(data->cell[x]) && is_force(name);
+  if (turned && r->fit->planned)
+    return zp_fail(
+        r->err, ZP_BAD_INPUT,
+        "plan.candidates: %.200s: the model computes a stroke from a force, so a plan needs the forces: name "
+        "their column in calibrate.x",
+        data->path);
+  if (turned) { /* whichever of the two was set on the bench */
+    name = data->cell[x];
     x = y;
-    y = stroke;
+    y = measured->x;
   }
   ZpStatus status = read_x(r->fit, set, data, x, r->err);
   if (status == ZP_OK && measured->is_record)
     status = begin_run(&r->fit->run[set->run], r->fit->x + set->first, data, r->err);
   else if (status == ZP_OK)
     status = read_others(r->fit, set, measured, x, r->err);
-  if (status == ZP_OK) status = read_y(r->fit, set, data, y, r->err);
+  if (status == ZP_OK) status = read_y(r->fit, set, data, name, y, r->err);
   if (status == ZP_OK) status = read_sigma(r, set, measured);
   return status == ZP_OK ? check_rows(r->fit, set, data, r->err) : status;
 }
@@ -613,6 +651,8 @@ static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measur
 static void skip_rows(ZpFit *fit, ZpFitSet *set) {
   const double from = fit->def->calibrate.skip_until, to = fit->def->calibrate.skip_after;
   size_t kept = set->first;
+  while (set->before < set->rows && fit->x[set->first + set->before] < from)
+    set->before++;
   for (size_t i = set->first; i < set->first + set->rows; i++) {
     if (fit->x[i] < from || fit->x[i] > to) continue;
     fit->x[kept] = fit->x[i];
@@ -628,8 +668,12 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
   ZpStatus status = measured->is_record ? read_run(fit, measured, r->err) : ZP_OK;
   for (int c = 0; c < measured->columns && status == ZP_OK; c++) {
     ZpFitSet *set = &fit->set[fit->sets++];
-    *set = (ZpFitSet){.first = fit->rows, .rows = measured->data->rows, .run = measured->run, .zero = -1};
-    status = read_set(r, set, measured, measured->y[c]);
+    *set = (ZpFitSet){.first = fit->rows,
+                      .rows = measured->data->rows,
+                      .run = measured->run,
+                      .zero = -1,
+                      .file = (size_t)(measured - r->measured)};
+    status = read_set(r, set, measured, c);
     if (status == ZP_OK && measured->is_record) skip_rows(fit, set);
     if (status == ZP_OK && set->rows == 0)
       status = zp_fail(r->err, ZP_BAD_INPUT, "%.200s: calibrate.skip_until and calibrate.skip_after leave no row",
@@ -664,7 +708,8 @@ static double part_of_range(const double *value, size_t count) {
 /* The times of all records against their voltage: each has its own. */
 static ZpStatus shift_times(Reading *r) {
   ZpFit *fit = r->fit;
-  ZpStatus status = fit->runs > 0 ? ZP_OK : zp_fail(r->err, ZP_BAD_INPUT, "calibrate.offsets: time: no file has times");
+  ZpStatus status =
+      may_have(r, ZP_FIT_KINDS) ? ZP_OK : zp_fail(r->err, ZP_BAD_INPUT, "calibrate.offsets: time: no file has times");
   for (size_t i = 0; i < fit->sets && status == ZP_OK; i++) {
     const ZpFitSet *set = &fit->set[i];
     if (set->x_key >= 0 || fit->run[set->run].late >= 0) continue;
@@ -683,7 +728,7 @@ static ZpStatus shift_zeros(Reading *r, const char *name) {
   const int kind = kind_called(name);
   for (size_t i = 0; i < fit->sets; i++)
     count += (int)fit->set[i].kind == kind;
-  if (count == 0)
+  if (kind == ZP_FIT_KINDS || !may_have(r, kind))
     return zp_fail(r->err, ZP_BAD_INPUT, "calibrate.offsets: %.60s: takes time and names of measured columns", name);
   for (size_t i = 0; i < fit->sets && status == ZP_OK; i++) {
     ZpFitSet *set = &fit->set[i];
@@ -724,8 +769,10 @@ static ZpStatus read_sets(Reading *r) {
   fit->rows = 0;
   for (size_t i = 0; i < r->files.count && status == ZP_OK; i++)
     status = read_file(r, &r->measured[i]);
+  for (size_t i = 0; i < fit->sets; i++)
+    fit->named.kinds |= 1u << fit->set[i].kind | (fit->set[i].x_key < 0 ? 1u << ZP_FIT_KINDS : 0);
   if (status == ZP_OK) status = read_shifts(r);
-  if (status == ZP_OK && fit->rows < (size_t)fit->n)
+  if (status == ZP_OK && !fit->planned && fit->rows < (size_t)fit->n)
     status = zp_fail(r->err, ZP_BAD_INPUT,
                      "data.file: %zu rows of data, fewer than the %d keys of calibrate.fit and shifts of "
                      "calibrate.offsets",
@@ -761,7 +808,8 @@ static void note_layout(ZpFit *fit, const Measured *measured) {
 
 static ZpStatus read_files(Reading *r) {
   const ZpActuatorDef *def = r->fit->def;
-  ZpStatus status = zp_data_read_all("data.file", def->data.file, def->data.columns, &r->files, r->err);
+  const char *paths = r->fit->planned ? def->plan.candidates : def->data.file;
+  ZpStatus status = zp_data_read_all(r->fit->source, paths, def->data.columns, !r->fit->planned, &r->files, r->err);
   if (status == ZP_OK) status = read_sigma_key(r);
   if (status == ZP_OK) status = split_names(&r->x, "calibrate.x", def->calibrate.x, r->err);
   if (status == ZP_OK) status = split_names(&r->y, "calibrate.y", def->calibrate.y, r->err);
@@ -770,8 +818,8 @@ static ZpStatus read_files(Reading *r) {
   return r->measured ? ZP_OK : zp_fail_memory(r->err);
 }
 
-ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err) {
-  Reading reading = {.fit = fit, .err = err};
+ZpStatus zp_fit_read_sets(ZpFit *fit, bool all, ZpError *err) {
+  Reading reading = {.fit = fit, .all = all, .err = err};
   ZpStatus status = read_files(&reading);
   if (status == ZP_OK) status = find_measured(&reading);
   if (status == ZP_OK) status = read_sets(&reading);

@@ -118,11 +118,28 @@ static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
   return status;
 }
 
-ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .tolerance = NAN, .horizon = 1, .err = err};
-  if (*def->data.file == 0)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
+static ZpStatus open_fit(ZpFit *fit, bool all, ZpError *err) {
   ZpStatus status = read_keys(fit, err);
   if (status == ZP_OK) status = read_bounds(fit, err);
-  return status == ZP_OK ? zp_fit_read_sets(fit, err) : status;
+  return status == ZP_OK ? zp_fit_read_sets(fit, all, err) : status;
+}
+
+ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
+  *fit = (ZpFit){.def = def, .source = "data.file", .tolerance = NAN, .horizon = 1, .err = err};
+  if (*def->data.file == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
+  return open_fit(fit, true, err);
+}
+
+ZpStatus zp_fit_open_present(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
+  *fit = (ZpFit){.def = def, .source = "data.file", .tolerance = NAN, .horizon = 1, .err = err};
+  return open_fit(fit, false, err);
+}
+
+ZpStatus zp_fit_open_candidates(const ZpActuatorDef *def, const ZpFit *data, ZpFit *fit, ZpError *err) {
+  *fit = (ZpFit){.def = def, .planned = true, .source = "plan.candidates", .tolerance = NAN, .horizon = 1, .err = err};
+  if (data) fit->named = data->named;
+  if (*def->plan.candidates == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "plan.candidates: empty; study plan needs a CSV file of possible measurements");
+  return open_fit(fit, true, err);
 }

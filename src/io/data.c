@@ -278,8 +278,8 @@ static bool has_only_numbers(const ZpData *data, size_t column) {
 
 /* Is it a table of numbers? A scenario may name any file, and messages quote names and cells: those of a table, and
  * never what a file is that was not made for zipact. */
-static ZpStatus check_table(const ZpData *data, ZpError *err) {
-  if (data->columns < 2)
+static ZpStatus check_table(const ZpData *data, size_t least, ZpError *err) {
+  if (data->columns < least)
     return zp_fail(err, ZP_BAD_INPUT,
                    "%s: %.300s:%d: not a table: one column; commas, semicolons or tabs must separate the columns",
                    data->key, data->path, data->line[0]);
@@ -290,11 +290,16 @@ static ZpStatus check_table(const ZpData *data, ZpError *err) {
                  data->path);
 }
 
-ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
+/* A table of at least so many columns. */
+static ZpStatus read_table(const char *key, const char *path, size_t least, ZpData *data, ZpError *err) {
   *data = (ZpData){.key = key, .path = path};
   ZpStatus status = read_text(key, path, &data->text, err);
   if (status == ZP_OK) status = take_text(data, data->text, err);
-  return status == ZP_OK ? check_table(data, err) : status;
+  return status == ZP_OK ? check_table(data, least, err) : status;
+}
+
+ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
+  return read_table(key, path, 2, data, err);
 }
 
 /* -- names ------------------------------------------------------------------------------------------- */
@@ -350,7 +355,7 @@ static bool differ_in_unit(const ZpData *data, const char *theirs, const char *o
 }
 
 /* Rename a column: "Gewicht = load_g". `part` is modified and must outlive the data. */
-static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err) {
+static ZpStatus rename_column(const ZpDataFiles *files, char *part, bool measured, ZpError *err) {
   char *equals = strchr(part, '=');
   if (!equals)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -360,7 +365,7 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
   char *theirs = zp_trim(part), *ours = zp_trim(equals + 1);
   if (strchr(ours, '='))
     return zp_fail(err, ZP_BAD_INPUT, "data.columns: \"%.80s\": several names are separated by semicolons", ours);
-  bool found = false;
+  bool found = !measured;
   for (size_t i = 0; i < files->count; i++) {
     int column = zp_data_column(&files->file[i], theirs);
     const bool whole = column >= 0; /* with its unit */
@@ -376,21 +381,22 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
   return found ? ZP_OK : fail_renaming(files, theirs, err);
 }
 
-static ZpStatus rename_columns(ZpDataFiles *files, const char *renamed, ZpError *err) {
+static ZpStatus rename_columns(ZpDataFiles *files, const char *renamed, bool measured, ZpError *err) {
   char *rest = files->renamed = strdup(renamed);
   ZpStatus status = rest ? ZP_OK : zp_fail_memory(err);
   for (char *part = rest ? strsep(&rest, ";") : NULL; part && status == ZP_OK; part = strsep(&rest, ";"))
-    if (*zp_trim(part)) status = rename_column(files, part, err);
+    if (*zp_trim(part)) status = rename_column(files, part, measured, err);
   return status;
 }
 
-ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err) {
+ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, bool measured, ZpDataFiles *files,
+                          ZpError *err) {
   *files = (ZpDataFiles){.paths = strdup(paths), .file = calloc(count_char(paths, ';') + 1, sizeof(ZpData))};
   if (!files->paths || !files->file) return zp_fail_memory(err);
   ZpStatus status = ZP_OK;
   for (char *rest = files->paths; rest && status == ZP_OK;)
-    status = zp_data_read(key, zp_trim(strsep(&rest, ";")), &files->file[files->count++], err);
-  return status == ZP_OK ? rename_columns(files, renamed, err) : status;
+    status = read_table(key, zp_trim(strsep(&rest, ";")), measured ? 2 : 1, &files->file[files->count++], err);
+  return status == ZP_OK ? rename_columns(files, renamed, measured, err) : status;
 }
 
 /* -- numbers ----------------------------------------------------------------------------------------- */

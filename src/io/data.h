@@ -40,8 +40,10 @@ ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *
 void zp_data_destroy(ZpData *data);
 
 /* Read several files whose paths are separated by semicolons. `renamed`, the value of data.columns: "name in the file =
- * name in zipact; ..."; each renames a column in all files that have it. To be destroyed whatever the status is. */
-ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err);
+ * name in zipact; ..."; each renames a column in all files that have it. `measured`: they have measured values;
+ * otherwise one column suffices, and no file needs to have a renamed one. To be destroyed whatever the status is. */
+ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, bool measured, ZpDataFiles *files,
+                          ZpError *err);
 void zp_data_files_destroy(ZpDataFiles *files);
 
 /* Number of the column called `name`, in any form that a file may have, or so in the file; -1 if there is none. */

@@ -83,7 +83,8 @@ typedef enum ZpShows {
   ZP_SHOWS_modes,       /* the shape at rest, then one shape per mode */
   ZP_SHOWS_field,       /* forces along one shape, and the field around it */
   ZP_SHOWS_fit,         /* measured and fitted values */
-  ZP_SHOWS_limits       /* single states, each of them a limit */
+  ZP_SHOWS_limits,      /* single states, each of them a limit */
+  ZP_SHOWS_plan         /* measurements to make, in order */
 } ZpShows;
 
 ZpShows zp_study_shows(ZpStudy study);

@@ -11,18 +11,22 @@
 #include "sample/statistics.h"
 #include "study/result.h"
 
-/* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars, so that a sweep has columns, but arrays in JSON. */
+/* frequency_1_Hz, frequency_2_Hz, ..., and the like: scalars, so that a sweep has columns, but arrays in JSON. */
 typedef struct List {
+  ZpShows of;
   const char *name, *pattern; /* format of its scalars, for sscanf */
 } List;
 
-static const List lists[] = {{"frequencies_Hz", "frequency_%d_Hz%n"},
-                             {"frequencies_error_Hz", "frequency_%d_error_Hz%n"}};
+static const List lists[] = {{ZP_SHOWS_modes, "frequencies_Hz", "frequency_%d_Hz%n"},
+                             {ZP_SHOWS_modes, "frequencies_error_Hz", "frequency_%d_error_Hz%n"},
+                             {ZP_SHOWS_plan, "chosen_rows", "row_%d%n"},
+                             {ZP_SHOWS_plan, "chosen_files", "file_%d%n"}};
 enum { LISTS = sizeof lists / sizeof lists[0] };
 
-static bool is_of(const List *list, const ZpScalar *scalar) {
+static bool is_of(const List *list, ZpStudy study, const ZpScalar *scalar) {
   int mode, end = 0;
-  return sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 && !scalar->name[end];
+  return zp_study_shows(study) == list->of && sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 &&
+         !scalar->name[end];
 }
 
 /* The name of a key, for as long as the block around it. */
@@ -99,21 +103,43 @@ static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
   }
 }
 
+/* Is it neither in a list nor the second number of an interval? */
+static bool stands_alone(const ZpResult *result, const ZpScalar *scalar) {
+  bool listed = false;
+  for (size_t k = 0; k < LISTS; k++)
+    listed |= is_of(&lists[k], result->study, scalar);
+  return !listed && !is_high_end(scalar);
+}
+
+/* Has no scalar before it a name that begins with the same `length` letters? */
+static bool is_first_of_group(const ZpResult *result, const ZpScalar *scalar, size_t length) {
+  for (const ZpScalar *before = result->scalar; before < scalar; before++)
+    if (strncmp(before->name, scalar->name, length) == 0) return false;
+  return true;
+}
+
+/* All scalars of a group, the first one and those that follow: an object of JSON has each name once. */
+static void put_group(ZpJson *json, Open *open, const ZpResult *result, const ZpScalar *first, size_t length) {
+  for (const ZpScalar *scalar = first; scalar < result->scalar + result->scalars; scalar++)
+    if (strncmp(scalar->name, first->name, length) == 0 && stands_alone(result, scalar)) put_nested(json, open, scalar);
+}
+
 static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
   const ZpScalar *end = result->scalar + result->scalars;
-  const size_t count = zp_study_shows(result->study) == ZP_SHOWS_modes ? LISTS : 0;
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < LISTS; k++) {
+    if (zp_study_shows(result->study) != lists[k].of) continue;
     zp_json_open(json, lists[k].name, '[');
     for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++)
-      if (is_of(&lists[k], scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
+      if (is_of(&lists[k], result->study, scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
     zp_json_close(json, ']');
   }
   Open open = {""};
   for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++) {
-    bool listed = false;
-    for (size_t k = 0; k < count; k++)
-      listed |= is_of(&lists[k], scalar);
-    if (!listed && !is_high_end(scalar)) put_nested(json, &open, scalar);
+    const size_t length = strcspn(scalar->name, ".");
+    const bool grouped = scalar->name[length] != 0;
+    if (!stands_alone(result, scalar)) continue;
+    if (!grouped) put_nested(json, &open, scalar);
+    if (grouped && is_first_of_group(result, scalar, length + 1)) put_group(json, &open, result, scalar, length + 1);
   }
   close_groups(json, &open, "");
   if (result->sensitivities > 0) put_sensitivity(json, scenario, result);

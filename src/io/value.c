@@ -81,8 +81,8 @@ bool zp_value_is_number(const ZpKey *key) {
 
 ZpPaths zp_key_paths(int index) {
   const char *name = zp_key(index)->name, *last = strrchr(name, '.');
-  if (!last || strcmp(last, ".file") != 0) return ZP_PATHS_NONE;
-  return strcmp(name, "data.file") == 0 ? ZP_PATHS_SEVERAL : ZP_PATHS_ONE;
+  if (strcmp(name, "data.file") == 0 || strcmp(name, "plan.candidates") == 0) return ZP_PATHS_SEVERAL;
+  return last && strcmp(last, ".file") == 0 ? ZP_PATHS_ONE : ZP_PATHS_NONE;
 }
 
 void zp_value_range(int index, char *text, size_t size) {

@@ -3,12 +3,7 @@
 #include "base/fail.h"
 #include "study/studies.h"
 
-static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "only study actuate runs in time"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "fit the keys of one member, with stack.series 1"),
-    ZP_RULE_STARTS,
-    ZP_RULE_ELASTIC,
-};
+static const ZpRule rule[] = {ZP_RULES_OF_FITS};
 const ZpRules zp_rules_calibrate = ZP_RULES_OF(rule);
 
 ZpStatus zp_check_calibrate(const ZpActuatorDef *def, ZpError *err) {

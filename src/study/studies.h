@@ -53,6 +53,12 @@ ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
         "only study actuate resumes a run"                                                                             \
   }
 
+/* Those of fits, which compute cases by several studies. */
+#define ZP_RULES_OF_FITS                                                                                               \
+  ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "only study actuate runs in time"),              \
+      ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "fit the keys of one member, with stack.series 1"), ZP_RULE_STARTS,  \
+      ZP_RULE_ELASTIC
+
 /* The rule by which a study refuses a Def, its own or one of all studies; NULL if another check does, or none. */
 const ZpRule *zp_study_refusing(ZpStudy study, const ZpActuatorDef *def);
 

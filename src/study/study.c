@@ -10,7 +10,7 @@
 #include "study/rates.h"
 
 /* Files that a study takes. */
-enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
+enum { FILES_none, FILES_course, FILES_reference, FILES_measurements, FILES_candidates };
 
 /* A study at work. */
 typedef struct Row {

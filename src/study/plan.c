@@ -1,0 +1,17 @@
+/* The part of study `plan` that needs no file: what it requires of a Def. The plan itself is
+ * src/fit/plan.c. */
+#include "base/fail.h"
+#include "study/studies.h"
+
+static const ZpRule rule[] = {ZP_RULES_OF_FITS};
+const ZpRules zp_rules_plan = ZP_RULES_OF(rule);
+
+ZpStatus zp_check_plan(const ZpActuatorDef *def, ZpError *err) {
+  (void)def, (void)err;
+  return ZP_OK;
+}
+
+ZpStatus zp_study_plan(const ZpTask *task, ZpResult *result, ZpError *err) {
+  (void)task, (void)result;
+  return zp_fail(err, ZP_BAD_INPUT, "study = plan: run by zp_data_study_run of zipact/calibrate.h");
+}
