@@ -553,6 +553,18 @@ static void write_openings(const ZpActuatorDef *first, const ZpActuatorDef *last
   ck_assert_int_eq(fclose(file), 0);
 }
 
+/* Without calibrate.y a column is found by its name, behind one that sets a voltage. */
+TEST(measured_column_is_found_by_its_name) {
+  ZpActuatorDef def = calibration("third.csv", "ribbon.young_modulus"), truth = def;
+  FILE *file = fopen("third.csv", "w");
+  fputs("load_g,voltage_kV,stroke_mm\n", file);
+  for (int i = 1; i <= 3; i++)
+    fprintf(file, "%d,0.5,%.17g\n", 2 * i, 1e3 * at_rest(truth, ZP_FIT_STROKE, 2e-3 * i, 500));
+  ck_assert_int_eq(fclose(file), 0);
+  def.ribbon.young_modulus *= 1.1;
+  ck_near(zp_result_get(fit(&def), "ribbon.young_modulus"), truth.ribbon.young_modulus, 2.2e-13); /* 7.3e-14 measured */
+}
+
 /* A stiff ribbon hangs less open and pulls in sooner: one row has no equilibrium at the start of the fit. It counts as
  * twice the largest measured value, so that the fit goes to where all rows have one. */
 TEST(row_without_an_equilibrium) {

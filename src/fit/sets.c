@@ -112,18 +112,18 @@ static bool is_possible(bool over_time, int x_key, ZpFitKind kind) {
   return kind != ZP_FIT_CURRENT && (kind != ZP_FIT_FORCE || x_key != zp_key_find("load.mass"));
 }
 
-/* Does a run have what a column measures? */
-static bool is_of_run(const char *name) {
+/* Is a column named as a measurement, over time as one that a run has? */
+static bool is_measurement(const char *name, bool over_time) {
   ZpUnitScale scale;
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++)
-    if (is_possible(true, -1, (ZpFitKind)kind) &&
+    if (is_possible(over_time, -1, (ZpFitKind)kind) &&
         zp_data_unit(name, zp_fit_number[kind].column, zp_fit_number[kind].unit, &scale))
       return true;
   return false;
 }
 
-/* Without names in calibrate.x and .y: a column of time and all that a run has, otherwise the first and the second
- * column. */
+/* Without names in calibrate.x and .y: a column of time and all that a run has, otherwise the first column, and the
+ * first of the others that is named as a measurement, or the second column. */
 static int usual_x(const ZpData *data) {
   for (int column = 0; column < (int)data->columns; column++)
     if (is_time(data->cell[column])) return column;
@@ -131,8 +131,10 @@ static int usual_x(const ZpData *data) {
 }
 
 static void take_usual_y(const ZpData *data, Measured *measured) {
-  for (int column = 0; column < (int)data->columns && measured->columns < NAMES_MOST; column++)
-    if (measured->is_record ? is_of_run(data->cell[column]) : column == 1) measured->y[measured->columns++] = column;
+  const int most = measured->is_record ? NAMES_MOST : 1;
+  for (int column = measured->is_record ? 0 : 1; column < (int)data->columns && measured->columns < most; column++)
+    if (is_measurement(data->cell[column], measured->is_record)) measured->y[measured->columns++] = column;
+  if (!measured->is_record && measured->columns == 0 && data->columns > 1) measured->y[measured->columns++] = 1;
 }
 
 /* Without a column for it, a row of possible measurements is measured in all that calibrate.y names. */
