@@ -3,7 +3,7 @@
 #include "base/fail.h"
 #include "study/studies.h"
 
-static const ZpRule rule[] = {ZP_RULES_OF_FITS};
+static const ZpRule rule[] = {ZP_RULE_NO_TABLE, ZP_RULE_ONE_MEMBER, ZP_RULE_STARTS, ZP_RULE_ELASTIC};
 const ZpRules zp_rules_calibrate = ZP_RULES_OF(rule);
 
 ZpStatus zp_check_calibrate(const ZpActuatorDef *def, ZpError *err) {

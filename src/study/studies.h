@@ -54,10 +54,13 @@ ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
   }
 
 /* Those of fits, which compute cases by several studies. */
-#define ZP_RULES_OF_FITS                                                                                               \
-  ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "only study actuate runs in time"),              \
-      ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "fit the keys of one member, with stack.series 1"), ZP_RULE_STARTS,  \
-      ZP_RULE_ELASTIC
+#define ZP_RULE_NO_TABLE                                                                                               \
+  {                                                                                                                    \
+    ZP_RULE_PHYSICS, false, ZP_ANY, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE),                                 \
+        "only study actuate runs in time"                                                                              \
+  }
+#define ZP_RULE_ONE_MEMBER                                                                                             \
+  { ZP_RULE_NOT_MODELLED, false, ZP_SEVERAL, ZP_ANY, ZP_NEVER, "fit the keys of one member, with stack.series 1" }
 
 /* The rule by which a study refuses a Def, its own or one of all studies; NULL if another check does, or none. */
 const ZpRule *zp_study_refusing(ZpStudy study, const ZpActuatorDef *def);
