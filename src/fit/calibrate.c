@@ -184,7 +184,7 @@ static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result)
   Columns columns;
   double *value = open_columns(fit, &columns) ? calloc(columns.count, sizeof *value) : NULL;
   if (value) result->series = zp_table_create(columns.column, columns.count, fit->rows < 2 ? 2 : fit->rows);
-  for (size_t row = 0; result->series && row < fit->rows; row++) {
+  for (size_t row = 0; value && result->series && row < fit->rows; row++) {
     fill_row(fit, &columns, row, fitted, value);
     zp_table_offer(result->series, value);
   }

@@ -433,7 +433,7 @@ static void add_errors(const ZpFit *list, Columns *c) {
 
 static bool open_columns(const ZpFit *list, Columns *c) {
   const size_t room =
-      PLACE_COLUMNS + LAST_COLUMNS + list->sets * (2 * ZP_FIT_OTHERS + 2) + ZP_FIT_KINDS + 2 * ZP_FIT_KEYS;
+      PLACE_COLUMNS + LAST_COLUMNS + list->sets * (2 * ZP_FIT_OTHERS + 2) + ZP_FIT_KINDS + (size_t)2 * ZP_FIT_KEYS;
   *c = (Columns){.room = room};
   c->column = calloc(room, sizeof *c->column);
   c->name = calloc(room, sizeof *c->name);
@@ -495,7 +495,7 @@ static bool fill_table(const Plan *plan, ZpResult *result) {
   Columns c;
   double *row = open_columns(&plan->list, &c) ? calloc(c.count, sizeof *row) : NULL;
   if (row) result->series = zp_table_create(c.column, c.count, plan->number < 2 ? 2 : plan->number);
-  for (size_t k = 0; result->series && k < plan->number; k++) {
+  for (size_t k = 0; row && result->series && k < plan->number; k++) {
     for (size_t i = 0; i < c.count; i++)
       row[i] = NAN;
     row[0] = (double)(k + 1);
