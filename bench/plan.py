@@ -6,9 +6,11 @@
 Each bench is a random dry actuator with 21 nodes at rest or closing, of which two or three keys are unknown. It can measure
 one or two of: strokes under loads and voltages, pull-in voltages under loads, zip times under loads and voltages, with a
 standard deviation each. The plan is made at values of the keys that are up to 15 % wrong; planned rows and even grids are
-then judged at the true ones. A grid of n rows has as many loads as voltages, as nearly as n allows, and of two kinds half
-each; the least n counts whose error of all keys together (the criterion D) is at most that of the plan, and the least whose
-every key has an interval at most as wide as the plan's. Grids end at MOST rows; then the ratio is above what is printed.
+then judged at the true ones. A grid of n rows has as many loads as voltages, as nearly as n allows, its ends are those of
+the list, and of two kinds half each. The least n counts whose error of all keys together (the criterion D) is at most that
+of the plan ("together"), and the least whose every key has an interval at most as wide as the plan's ("in each key"). "of
+the list": how many evenly spaced rows of the list do as well together, as study plan says itself. Grids end at a number of
+rows; where none is as good, that number counts.
 """
 import argparse
 import csv
@@ -30,9 +32,9 @@ KEYS = {
 }
 # kind: unit of its column, unit and range of its standard deviation, rows of the list: loads and voltages, most rows of a grid
 KINDS = {
-    "stroke": ("mm", "um", 20, 100, (6, 6), 64),
-    "pull_in_voltage": ("V", "V", 10, 50, (12, 1), 64),
-    "zip_time": ("ms", "ms", 0.2, 1, (4, 4), 30),
+    "stroke": ("mm", "um", 20, 100, (12, 12), 100),
+    "pull_in_voltage": ("V", "V", 10, 50, (30, 1), 30),
+    "zip_time": ("ms", "ms", 0.2, 1, (6, 6), 36),
 }
 
 
@@ -47,7 +49,7 @@ class Bench:
         self.keys = rnd.sample(list(KEYS), rnd.choice([2, 3]))
         self.true = {key: KEYS[key][1] * rnd.uniform(*KEYS[key][2:]) for key in self.keys}
         self.kinds = rnd.sample(list(KINDS), rnd.choice([1, 1, 2]))
-        self.number = len(self.keys) + rnd.choice([1, 2, 3])
+        self.number = len(self.keys) * rnd.choice([1, 2, 3])
         self.sigma = {kind: rnd.uniform(*KINDS[kind][2:4]) for kind in self.kinds}
         self.loads = rnd.uniform(3, 5), rnd.uniform(7, 10)
         pull_in = [self.pull_in(load) for load in self.loads]
@@ -55,7 +57,7 @@ class Bench:
         self.most = min(KINDS[kind][5] for kind in self.kinds)
 
     def base(self):
-        return {"mesh.nodes": 21, "liquid.model": "none", "damping.internal": "100 us", "drive.voltage": "20 kV"}
+        return {"mesh.nodes": 21, "liquid.model": "none", "damping.internal": "100 us", "drive.voltage": "20 kV", "solver.tolerance": 1e-3}
 
     def pull_in(self, load):
         """kV, at the values at which the plan is made."""
@@ -120,9 +122,10 @@ class Bench:
         return [summary["planned_relative_error"], *each]
 
     def compare(self):
-        """=> errors of the plan, and rows of grids that are as good together and in each key; infinite: none is."""
+        """=> errors of the plan, and rows of grids that are as good together and in each key, infinite where none is, and of
+        the list."""
         nominal = {key: KEYS[key][1] for key in self.keys}
-        _, chosen = self.plan(self.listed(), nominal, self.number)
+        summary, chosen = self.plan(self.listed(), nominal, self.number)
         planned = self.errors(chosen)
         together = each = math.inf
         before = None
@@ -138,7 +141,7 @@ class Bench:
                 each = min(each, size)
                 if together < math.inf:
                     break
-        return planned, together, each
+        return planned, together, each, summary["even_rows"]
 
 
 def number(summary, name):
@@ -151,13 +154,14 @@ def shown(rows, most):
 
 
 def report(ratios):
-    """Of (kinds, planned rows over those of a grid that is as good together, in each key)."""
-    print("\n| measured | benches | planned over even, together | in each key |\n|---|---|---|---|")
-    for kinds in sorted({kinds for kinds, _, _ in ratios}) + [None]:
-        of = [(a, b) for name, a, b in ratios if kinds in (name, None)]
+    """Of (kinds, planned rows over those of a grid that is as good together, in each key, over even ones of the list) =>
+    the median in each key."""
+    print("\n| measured | benches | planned over even, together | in each key | of the list |\n|---|---|---|---|---|")
+    for kinds in sorted({row[0] for row in ratios}) + [None]:
+        of = [row[1:] for row in ratios if kinds in (row[0], None)]
         medians = " | ".join(f"{statistics.median(column):.2f}" for column in zip(*of))
         print(f"| {kinds or 'all'} | {len(of)} | {medians} |")
-    return statistics.median(together for _, together, _ in ratios)
+    return statistics.median(row[2] for row in ratios)
 
 
 def main():
@@ -171,15 +175,15 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             bench = Bench(os.path.abspath(given.command), folder, seed)
             start = os.times()
-            planned, together, each = bench.compare()
+            planned, together, each, listed = bench.compare()
             spent = os.times().children_user - start.children_user
         name = ", ".join(sorted(bench.kinds))
         told = "  ".join(f"{key} {100 * error:.3g} %" for key, error in zip(bench.keys, planned[1:]))
-        print(f"{seed:5} {name:26} {bench.number} planned, even {shown(together, bench.most)} together, {shown(each, bench.most)} in each key, {spent:5.1f} s  {told}", flush=True)
-        ratios.append((name, *(bench.number / min(rows, bench.most) for rows in (together, each))))
+        print(f"{seed:5} {name:26} {bench.number} planned, even {shown(together, bench.most)} together, {shown(each, bench.most)} in each key, {listed:3.0f} of the list, {spent:5.1f} s  {told}", flush=True)
+        ratios.append((name, *(bench.number / min(rows, bench.most) for rows in (together, each)), bench.number / listed))
     median = report(ratios)
-    if given.count >= 20 and median > 0.5:
-        sys.exit("planned measurements are more than half of those of an even grid")
+    if given.count >= 20 and median > 0.6:
+        sys.exit("planned measurements are hardly fewer than those of an even grid")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,16 @@ static inline ZpResult *data_study_of(ZpStudy study, const ZpActuatorDef *def) {
   return zp_test_owns(result, destroy_result);
 }
 
+/* The study is refused, by a message with these words, before it runs and as it runs. */
+static inline void refuse_study(ZpStudy study, const ZpActuatorDef *def, const char *words) {
+  ZpError err = {0};
+  ZpResult *result = NULL;
+  ck_assert_msg(zp_data_check(study, def, &err) == ZP_BAD_INPUT, "not refused: %s", words);
+  ck_assert_msg(strstr(err.message, words) != NULL, "%s", err.message);
+  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(result);
+}
+
 static inline ZpSim *data_sim_of(const ZpActuatorDef *def) {
   ZpModel *model = NULL;
   ZpSim *sim = NULL;

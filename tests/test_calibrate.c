@@ -709,19 +709,10 @@ TEST(table_1_of_the_paper) {
   }
 }
 
-static void refuse(ZpStudy study, const ZpActuatorDef *def, const char *words) {
-  ZpError err = {0};
-  ZpResult *result = NULL;
-  ck_assert_msg(zp_data_check(study, def, &err) == ZP_BAD_INPUT, "not refused: %s", words);
-  ck_assert_msg(strstr(err.message, words) != NULL, "%s", err.message);
-  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, &err), ZP_BAD_INPUT);
-  ck_assert_ptr_null(result);
-}
-
 static void refuse_file(const char *text, const char *keys, const char *words) {
   write_file("bad.csv", text);
   ZpActuatorDef def = calibration("bad.csv", keys);
-  refuse(ZP_STUDY_CALIBRATE, &def, words);
+  refuse_study(ZP_STUDY_CALIBRATE, &def, words);
 }
 
 TEST(bad_numbers_of_studies_are_refused) {
@@ -736,11 +727,11 @@ TEST(bad_numbers_of_studies_are_refused) {
 TEST(commas_in_place_of_semicolons) {
   write_file("one.csv", "Gewicht,Hub\n4,6\n8,11\n");
   ZpActuatorDef def = calibration("one.csv, two.csv", "ribbon.young_modulus");
-  refuse(ZP_STUDY_CALIBRATE, &def, "one.csv, two.csv: cannot be opened");
-  refuse(ZP_STUDY_CALIBRATE, &def, "; several files are separated by semicolons");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "one.csv, two.csv: cannot be opened");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "; several files are separated by semicolons");
   def = calibration("one.csv", "ribbon.young_modulus");
   set_text(&def, "data.columns", "Gewicht = load_g, Hub = stroke_mm");
-  refuse(ZP_STUDY_CALIBRATE, &def, "\"load_g, Hub = stroke_mm\": several names are separated by semicolons");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "\"load_g, Hub = stroke_mm\": several names are separated by semicolons");
 }
 
 /* A mixed fit says what is missing, in which column. */
@@ -748,40 +739,42 @@ TEST(bad_mixtures_are_refused) {
   ZpActuatorDef def = calibration("kind-1.csv; kind-2.csv", "ribbon.young_modulus"), one;
   write_file("kind-1.csv", "load_g,stroke_mm,sigma_mm\n8,2,0.1\n");
   write_file("kind-2.csv", "load_g,frequency_Hz\n8,3\n");
-  refuse(ZP_STUDY_CALIBRATE, &def,
-         "a fit to several kinds of measurement requires standard deviations of all, but frequency of kind-2.csv has "
-         "none; "
-         "add a column sigma_frequency_Hz, or give calibrate.sigma = \"frequency = ... Hz\"");
+  refuse_study(
+      ZP_STUDY_CALIBRATE, &def,
+      "a fit to several kinds of measurement requires standard deviations of all, but frequency of kind-2.csv has "
+      "none; "
+      "add a column sigma_frequency_Hz, or give calibrate.sigma = \"frequency = ... Hz\"");
   set_text(&def, "calibrate.sigma", "frequency = 1 mm");
-  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequency = \"1 mm\": not a frequency");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequency = \"1 mm\": not a frequency");
   set_text(&def, "calibrate.sigma", "frequency = -1 Hz");
-  refuse(ZP_STUDY_CALIBRATE, &def, "frequency = \"-1 Hz\": needs a number above 0 and its unit, Hz");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "frequency = \"-1 Hz\": needs a number above 0 and its unit, Hz");
   set_text(&def, "calibrate.sigma", "frequency 1 Hz");
-  refuse(ZP_STUDY_CALIBRATE, &def, "write stroke = 20 um; frequency = 0.1 Hz");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "write stroke = 20 um; frequency = 0.1 Hz");
   set_text(&def, "calibrate.sigma", "frequence = 1 Hz");
-  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequence: takes stroke, displacement");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequence: takes stroke, displacement");
   set_text(&def, "calibrate.sigma", "frequency = 1 Hz; opening = 1 mm");
-  refuse(ZP_STUDY_CALIBRATE, &def, "opening is not measured");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "opening is not measured");
   set_text(&def, "calibrate.sigma", "frequency = 1 Hz");
   set_text(&def, "calibrate.y", "stroke_mm; frequency_Hz; capacitance_pF");
-  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"capacitance_pF\": no such column in any file");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"capacitance_pF\": no such column in any file");
   set_text(&def, "calibrate.y", "stroke_mm");
-  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"stroke_mm\": no such column in kind-2.csv");
+  refuse_study(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"stroke_mm\": no such column in kind-2.csv");
   write_file("kind-2.csv", "load_g,stroke_mm\n8,3\n");
   set_text(&def, "calibrate.sigma", "");
-  refuse(ZP_STUDY_CALIBRATE, &def,
-         "a fit to several files requires standard deviations of all, but stroke of kind-2.csv has none");
+  refuse_study(ZP_STUDY_CALIBRATE, &def,
+               "a fit to several files requires standard deviations of all, but stroke of kind-2.csv has none");
   one = calibration("kind-3.csv", "ribbon.young_modulus");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_Hz");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_mm\n8,2,3,0.1\n");
-  refuse(ZP_STUDY_CALIBRATE, &one,
-         "column sigma_mm: the file has several measured columns; name the one that it belongs to");
+  refuse_study(ZP_STUDY_CALIBRATE, &one,
+               "column sigma_mm: the file has several measured columns; name the one that it belongs to");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_stroke_g,sigma_frequency_Hz\n8,2,3,0.1,0.1\n");
-  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: its unit must be one of the measured quantity, such as m");
+  refuse_study(ZP_STUDY_CALIBRATE, &one,
+               "column sigma_stroke_g: its unit must be one of the measured quantity, such as m");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_mm,sigma_stroke_mm\n8,2,3,0.1\n");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
-  refuse(ZP_STUDY_CALIBRATE, &one,
-         "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, displacement");
+  refuse_study(ZP_STUDY_CALIBRATE, &one,
+               "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, displacement");
 }
 
 TEST(files_that_are_no_tables_are_refused) {
@@ -796,8 +789,8 @@ TEST(files_that_are_no_tables_are_refused) {
 TEST(bad_input_is_refused) {
   const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
   ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
-  refuse(ZP_STUDY_CALIBRATE, &missing, "cannot be opened");
-  refuse(ZP_STUDY_CALIBRATE, &nameless, "data.file: empty");
+  refuse_study(ZP_STUDY_CALIBRATE, &missing, "cannot be opened");
+  refuse_study(ZP_STUDY_CALIBRATE, &nameless, "data.file: empty");
   refuse_file("", E, "empty");
   refuse_file("# only a remark\n\n", E, "empty");
   refuse_file("load_g,stroke_mm\n", E, "not a table: below the row of names, no column has a number");
@@ -831,20 +824,20 @@ TEST(bad_input_is_refused) {
   write_file("good.csv", good);
   ZpActuatorDef several = calibration("good.csv; bad.csv", E), renamed = calibration("good.csv", E), bounded = renamed;
   write_file("bad.csv", "load_g,opening_mm\n8,2\n");
-  refuse(ZP_STUDY_CALIBRATE, &several,
-         "measurement requires standard deviations of all, but stroke of good.csv has none");
+  refuse_study(ZP_STUDY_CALIBRATE, &several,
+               "measurement requires standard deviations of all, but stroke of good.csv has none");
   write_file("bad.csv", "load_g,stroke_mm\n8,x\n");
-  refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv:2: column stroke_mm");
+  refuse_study(ZP_STUDY_CALIBRATE, &several, "bad.csv:2: column stroke_mm");
   set_text(&renamed, "data.columns", "Masse = voltage_kV");
-  refuse(ZP_STUDY_CALIBRATE, &renamed, "Masse: no such column in good.csv, which has load_g, stroke_mm");
+  refuse_study(ZP_STUDY_CALIBRATE, &renamed, "Masse: no such column in good.csv, which has load_g, stroke_mm");
   set_text(&renamed, "data.columns", "load_g");
-  refuse(ZP_STUDY_CALIBRATE, &renamed, "name in the file = name in zipact");
+  refuse_study(ZP_STUDY_CALIBRATE, &renamed, "name in the file = name in zipact");
   set_text(&bounded, "calibrate.bounds", "ribbon.thickness = 40 um .. 60 um");
-  refuse(ZP_STUDY_CALIBRATE, &bounded, "ribbon.thickness is not in calibrate.fit");
+  refuse_study(ZP_STUDY_CALIBRATE, &bounded, "ribbon.thickness is not in calibrate.fit");
   set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 GPa .. 250 GPa");
-  refuse(ZP_STUDY_CALIBRATE, &bounded, "the bounds must enclose its start value, 2e+11 Pa");
+  refuse_study(ZP_STUDY_CALIBRATE, &bounded, "the bounds must enclose its start value, 2e+11 Pa");
   set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 mm .. 250 GPa");
-  refuse(ZP_STUDY_CALIBRATE, &bounded, "calibrate.bounds: ribbon.young_modulus = \"210 mm\": not a pressure");
+  refuse_study(ZP_STUDY_CALIBRATE, &bounded, "calibrate.bounds: ribbon.young_modulus = \"210 mm\": not a pressure");
   refuse_file(good, "load.mass", "cannot be fitted");
   refuse_file(good, "mass_spring.shear_coefficient", "is auto");
   refuse_file(good, "damping.drag", "is 0");
@@ -889,9 +882,9 @@ TEST(area_error_of_stationary) {
   result = data_study_of(ZP_STUDY_STATIONARY, &def);
   ck_below(zp_result_get(result, "area_error_m2"), 1e-12);
   write_file("shape.csv", "x_mm,y_mm\n1,2\n1,3\n");
-  refuse(ZP_STUDY_STATIONARY, &def, "x must increase");
+  refuse_study(ZP_STUDY_STATIONARY, &def, "x must increase");
   write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
-  refuse(ZP_STUDY_STATIONARY, &def, "no column y_m");
+  refuse_study(ZP_STUDY_STATIONARY, &def, "no column y_m");
 }
 
 /* Elements that hang under another load, and are drawn beside it, lie on those of the area error, which hang at the

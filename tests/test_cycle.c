@@ -690,6 +690,6 @@ TEST(one_ribbon_closes_in_a_cycle) {
     ck_assert(zp_result_get(result, "periodic") == 1 && zp_result_get(result, "closes") == 1);
     ck_below(0.99, zp_result_get(result, "contraction_max"));
     ck_below(zp_result_get(result, "contraction_min"), 0.5);
-    ck_near(zp_result_get(result, "energy_per_cycle_J"), lost_in_a_cycle(result->series), 3.6e-8);
+    ck_near(zp_result_get(result, "energy_per_cycle_J"), lost_in_a_cycle(result->series), 3.6e-8); /* 1.2e-8 measured */
   }
 }

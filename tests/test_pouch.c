@@ -288,7 +288,7 @@ TEST(linear_answer_keeps_the_volume) {
   ck_assert(zp_linear_cycle_open(model, NULL, &linear, &failed));
   for (int k = 0; k < 8; k++) {
     zp_linear_cycle_put(&linear, k / 8.0, sim);
-    ck_assert_double_eq_tol(lost_volume(model, zp_state_q(model, sim->state)), 0, 1e-14); /* 0 measured */
+    ck_assert_double_eq_tol(lost_volume(model, zp_state_q(model, sim->state)), 0, 3.4e-15); /* 1.1e-15 measured */
   }
   zp_linear_cycle_close(&linear);
 }
@@ -332,7 +332,7 @@ TEST(impact_behind_a_resistor) {
                           {"solver.end_time", 30e-3}, {"solver.tolerance", 1e-4});
   def.liquid.model = ZP_LIQUID_NONE;
   def.source.model = ZP_SOURCE_AMPLIFIER;
-  ck_below(lost_energy(&def), 3e-8);
+  ck_below(lost_energy(&def), 3e-8); /* 1.1e-8 measured */
 }
 
 /* The zipped length is told as a share of that of the electrodes. */
@@ -501,7 +501,7 @@ TEST(rates_of_the_volume) {
 /* Of the force by keys against differences of two studies. */
 TESTS(force_by_keys, 0, 4) {
   static const char *const keys[] = {"drive.voltage", "isometric.strain", "pouch.fill", "ribbon.length"};
-  static const double allowed[] = {4.9e-9, 4.4e-10, 1.4e-9, 6.8e-9}; /* a third of each measured */
+  static const double allowed[] = {4.9e-9, 4.4e-10, 1.4e-9, 6.8e-9}; /* 1.6e-9, 1.5e-10, 4.7e-10, 2.3e-9 measured */
   ZpActuatorDef def = DEF(POUCH, {"isometric.strain", 0.05});
   const int key = zp_key_find(keys[_i]);
   const double value = zp_def_get(&def, key), by = 1e-6 * value;

@@ -62,9 +62,9 @@ TEST(record_has_all_that_a_run_needs) {
   printf("modulus %.6g, late %.6g, zero %.6g, rms %.2g\n", zp_result_get(result, "ribbon.young_modulus"),
          zp_result_get(result, "time_offset"), zp_result_get(result, "displacement_offset"),
          zp_result_get(result, "residual_rms_m"));
-  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-5);
-  ck_near(zp_result_get(result, "time_offset"), late, 1e-4);
-  ck_near(zp_result_get(result, "displacement_offset"), zero, 1e-3);
+  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 5.4e-10); /* 1.8e-10 measured */
+  ck_near(zp_result_get(result, "time_offset"), late, 4.1e-9);            /* 1.4e-9 measured */
+  ck_near(zp_result_get(result, "displacement_offset"), zero, 7.5e-10);   /* 2.5e-10 measured */
 }
 
 /* Rows that calibrate.skip_until and skip_after leave out do not count. */
@@ -92,8 +92,8 @@ TEST(interval_of_a_linear_fit) {
                part = zp_fit_student(FRAMES - 3) * zp_result_get(result, "ribbon.young_modulus_standard_error");
   printf("%g: %g, %g over %g\n", value, zp_result_get(result, "ribbon.young_modulus_interval_95_low") - value,
          zp_result_get(result, "ribbon.young_modulus_interval_95_high") - value, part);
-  ck_near(value - zp_result_get(result, "ribbon.young_modulus_interval_95_low"), part, 0.03);
-  ck_near(zp_result_get(result, "ribbon.young_modulus_interval_95_high") - value, part, 0.03);
+  ck_near(value - zp_result_get(result, "ribbon.young_modulus_interval_95_low"), part, 0.021);  /* 0.007 measured */
+  ck_near(zp_result_get(result, "ribbon.young_modulus_interval_95_high") - value, part, 0.018); /* 0.0061 measured */
 }
 
 /* Student's distribution, of tables. */
@@ -134,7 +134,7 @@ TEST(missing_law_is_named) {
   const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
   printf("clean: %g\n", zp_result_get(result, "law_test"));
   ck_assert_int_eq(result->outcome, ZP_CONVERGED);
-  ck_assert_double_ge(zp_result_get(result, "law_test"), 5e-3);
+  ck_assert_double_ge(zp_result_get(result, "law_test"), 0.34); /* 1 measured */
   truth.insulator.resistivity = 5e9;
   write_record(&truth, 9e-3, 5e-6);
   result = data_study_of(ZP_STUDY_CALIBRATE, &def);
@@ -145,6 +145,14 @@ TEST(missing_law_is_named) {
     named |= strstr(result->note[i], "leakage through the insulators (insulator.resistivity)") != NULL;
   }
   ck_assert_int_eq(result->outcome, ZP_DOUBTFUL);
-  ck_assert_double_lt(zp_result_get(result, "law_test"), 1e-6);
+  ck_assert_double_lt(zp_result_get(result, "law_test"), 5e-20); /* 1.7e-20 measured */
   ck_assert(named);
+}
+
+TEST(record_without_rows_is_refused) {
+  ZpActuatorDef def = recorded("medium.permittivity");
+  write_record(&def, 0, 0);
+  def.calibrate.skip_until = 100;
+  refuse_study(ZP_STUDY_CALIBRATE, &def,
+               "no row is between calibrate.skip_until = 100 s and calibrate.skip_after = inf s");
 }

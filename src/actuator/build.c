@@ -890,12 +890,12 @@ static void derive(ZpModel *model) {
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));
   if (model->leaks) model->leak = leak_of(model);
   model->internal_damping = internal_damping_of(def);
+  for (size_t j = 0; j < model->count; j++)
+    model->pouch.mass += zp_ribbon_mass(model, j);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay below it. Pairs that join and part
    * from step to step add energy to motion near the limit */
   bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
-  for (size_t j = 0; j < model->count; j++)
-    model->pouch.mass += zp_ribbon_mass(model, j);
   double fastest = frequency_bound(model), contact = joins_at_will ? contact_frequency(model) : 0;
   double spring = spring_frequency(model);
   model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact + spring * spring);

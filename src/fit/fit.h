@@ -133,6 +133,10 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
 /* The definition of a record with the fitted keys at z. False if a value is out of the range of its key. */
 bool zp_fit_run_def(const ZpFit *fit, const ZpFitRun *run, const double *z, ZpActuatorDef *def);
 
+/* Size of a key with which its changes and errors are compared, in multiples of its start: it may be negative, or pass
+ * 0. */
+double zp_fit_size(double z);
+
 /* Sign of a change of the stroke as an actuator closes. */
 double zp_fit_closing(const ZpModel *model);
 

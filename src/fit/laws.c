@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fail.h"
 #include "def/def.h"
 #include "fit/fit.h"
 
@@ -47,11 +48,11 @@ static bool add_law(const ZpFit *fit, const Law *law, ZpActuatorDef *def) {
          (!law->second || set(def, law->second, law->second_value, duration));
 }
 
-/* Part of v that no parameter can make up for => v, by the normal equations at the fit. */
-static bool take_out_parameters(const ZpFit *fit, const ZpFitPoint *best, double *v) {
-  double C[ZP_FIT_MOST][ZP_FIT_MOST], sum[ZP_FIT_MOST] = {0};
+/* Part of v that no parameter can make up for => v, by the normal equations at the fit, whose inverse is C. */
+static void take_out_parameters(const ZpFit *fit, const ZpFitPoint *best, double C[ZP_FIT_MOST][ZP_FIT_MOST],
+                                double *v) {
+  double sum[ZP_FIT_MOST] = {0};
   const size_t n = (size_t)fit->n;
-  if (!zp_fit_covariance(fit, best->J, NULL, 1e-12, 1e-14, C)) return false;
   for (size_t i = 0; i < fit->rows; i++)
     for (size_t k = 0; k < n; k++)
       sum[k] += best->J[i * n + k] * v[i];
@@ -59,7 +60,6 @@ static bool take_out_parameters(const ZpFit *fit, const ZpFitPoint *best, double
     for (size_t k = 0; k < n; k++)
       for (size_t j = 0; j < n; j++)
         v[i] -= best->J[i * n + k] * C[k][j] * sum[j];
-  return true;
 }
 
 /* By how much the squares fall with a law, of which there can only be more than nothing. `way`: weighted change of the
@@ -98,14 +98,17 @@ ZpFitMissing zp_fit_find_missing(ZpFit *fit, const ZpFitPoint *best) {
   enum { FEWEST = 12 }; /* rows beside the parameters, below which a fit bends to noise */
   ZpFitMissing missing = {NULL, NULL, 0, NAN};
   double *r = calloc(2 * fit->rows, sizeof *r), *way = r ? r + fit->rows : NULL, most = 0;
+  double C[ZP_FIT_MOST][ZP_FIT_MOST];
   int tried = 0;
   const bool asks = r && fit->runs > 0 && fit->n > 0 && fit->rows >= (size_t)fit->n + FEWEST;
-  if (!r) fit->status = ZP_MACHINE;
+  if (!r) fit->status = zp_fail_memory(fit->err);
   for (size_t i = 0; i < fit->rows && asks; i++)
     r[i] = zp_fit_residual(fit, best->fitted, i);
-  const bool apart = asks && take_out_parameters(fit, best, r);
+  const bool apart = asks && zp_fit_covariance(fit, best->J, NULL, 1e-12, 1e-14, C);
+  if (apart) take_out_parameters(fit, best, C, r);
   for (size_t k = 0; k < LAWS && apart && zp_fit_goes_on(fit); k++) {
-    if (!move_by(fit, &laws[k], best, way) || !take_out_parameters(fit, best, way)) continue;
+    if (!move_by(fit, &laws[k], best, way)) continue;
+    take_out_parameters(fit, best, C, way);
     const double fall = fall_of(fit, way, r);
     tried++;
     if (fall <= most) continue;

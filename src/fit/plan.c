@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "fit/cholesky.h"
 #include "fit/selection.h"
 #include "io/report.h"
 #include "study/result.h"
@@ -92,44 +93,37 @@ static void close_plan(Plan *plan) {
 
 /* -- what is known ------------------------------------------------------------------------------------ */
 
-/* Size of a key to which its standard error is related, in multiples of its given value. */
-static double size_of(double z) {
-  static const double least = 1e-3;
-  return fmax(fabs(z), least);
-}
-
 /* Do the data tell the keys apart, and leave each with a standard error below its value? */
 static bool data_limit_keys(const Plan *plan) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   bool limit = zp_fit_covariance(&plan->data, plan->best.J, NULL, 0, 1e-10, C);
   for (int k = 0; k < plan->data.keys && limit; k++)
-    limit = sqrt(plan->judgement.variance * C[k][k]) < size_of(plan->best.z[k]);
+    limit = sqrt(plan->judgement.variance * C[k][k]) < zp_fit_size(plan->best.z[k]);
   return limit;
 }
 
-/* A step to the best values where each key is known to its given value, beside the data: as many rows more, each with
- * the derivative of one key. `J`: room for all rows. False if there is none. */
-static bool step_to_given(const Plan *plan, double *J, double *step) {
-  const double weight = sqrt(plan->judgement.variance);
-  const size_t n = (size_t)plan->data.n, rows = plan->data.rows, keys = (size_t)plan->data.keys;
-  double C[ZP_FIT_MOST][ZP_FIT_MOST], g[ZP_FIT_MOST] = {0};
-  ZpFit both = plan->data;
-  both.rows = rows + keys;
-  memset(J, 0, both.rows * n * sizeof *J);
-  memcpy(J, plan->best.J, rows * n * sizeof *J);
-  for (size_t k = 0; k < keys; k++) {
-    J[(rows + k) * n + k] = weight;
-    g[k] = weight * weight * (1 - plan->best.z[k]);
+/* Information of the data about all parameters, times their variance: J^T J. */
+static ZpInformation information_of_data(const Plan *plan) {
+  ZpInformation of = {{{0}}};
+  for (size_t i = 0; i < plan->data.rows; i++)
+    zp_information_add(plan->data.n, plan->best.J + i * (size_t)plan->data.n, 1, &of);
+  return of;
+}
+
+/* A step to the best values where each key is known to its given value, beside the data. False if there is none. */
+static bool step_to_given(const Plan *plan, double *step) {
+  const size_t n = (size_t)plan->data.n;
+  ZpInformation of = information_of_data(plan);
+  memset(step, 0, n * sizeof *step);
+  for (int k = 0; k < plan->data.keys; k++) {
+    of.of[k][k] += plan->judgement.variance;
+    step[k] = plan->judgement.variance * (1 - plan->best.z[k]);
   }
-  for (size_t i = 0; i < rows; i++)
+  for (size_t i = 0; i < plan->data.rows; i++)
     for (size_t k = 0; k < n; k++)
-      g[k] -= J[i * n + k] * zp_fit_residual(&plan->data, plan->best.fitted, i);
-  if (!zp_fit_covariance(&both, J, NULL, 0, 0, C)) return false;
-  for (size_t a = 0; a < n; a++) {
-    step[a] = 0;
-    for (size_t b = 0; b < n; b++)
-      step[a] += C[a][b] * g[b];
-  }
+      step[k] -= plan->best.J[i * n + k] * zp_fit_residual(&plan->data, plan->best.fitted, i);
+  if (!zp_cholesky_factor(plan->data.n, 0, of.of)) return false;
+  zp_cholesky_solve(plan->data.n, of.of, step);
   return true;
 }
 
@@ -138,14 +132,12 @@ static bool step_to_given(const Plan *plan, double *J, double *step) {
 static bool approach_given(Plan *plan) {
   enum { STEPS = 5 };
   ZpFit *data = &plan->data;
-  double step[ZP_FIT_MOST], *J = calloc((data->rows + ZP_FIT_KEYS) * (size_t)data->n, sizeof *J);
-  if (!J) data->status = zp_fail_memory(data->err);
-  for (int i = 0; i < STEPS && J && plan->best.good && step_to_given(plan, J, step); i++) {
+  double step[ZP_FIT_MOST];
+  for (int i = 0; i < STEPS && plan->best.good && step_to_given(plan, step); i++) {
     for (int k = 0; k < data->n; k++)
       plan->best.z[k] = fmin(fmax(plan->best.z[k] + step[k], data->lower[k]), data->upper[k]);
     zp_fit_go_to(data, &plan->best);
   }
-  free(J);
   return plan->best.good;
 }
 
@@ -168,11 +160,10 @@ static void assume(const ZpSelection *selection, ZpInformation *information) {
 
 /* Information of the data about the keys, where their shifts are unknown. */
 static void learn_from_data(const Plan *plan, ZpInformation *information) {
-  const size_t n = (size_t)plan->data.n;
-  for (size_t i = 0; i < plan->data.rows; i++)
-    for (size_t a = 0; a < n; a++)
-      for (size_t b = 0; b < n; b++)
-        information->of[a][b] += plan->best.J[i * n + a] * plan->best.J[i * n + b] / plan->judgement.variance;
+  *information = information_of_data(plan);
+  for (int a = 0; a < plan->data.n; a++)
+    for (int b = 0; b < plan->data.n; b++)
+      information->of[a][b] /= plan->judgement.variance;
   if (!plan->limited) assume(&plan->selection, information);
   zp_information_eliminate(plan->data.keys, plan->data.n, information);
 }
@@ -558,7 +549,7 @@ static ZpStatus make_plan(Plan *plan, const ZpActuatorDef *def, ZpResult *result
                              .among = plan->among,
                              .count = selection->count};
   for (int k = 0; k < selection->keys; k++)
-    selection->size[k] = size_of(plan->at.z[k]);
+    selection->size[k] = zp_fit_size(plan->at.z[k]);
   start_selection(plan);
   plan->number = (size_t)def->plan.budget < selection->count ? (size_t)def->plan.budget : selection->count;
   if (!zp_selection_best(selection, plan->number, plan->chosen)) return zp_fail_memory(err);

@@ -19,8 +19,7 @@
  * curvature. */
 static const double difference = 1e-4;
 
-/* Size of a key with which its changes are compared, in multiples of its start. The key may be negative or pass 0. */
-static double size_of(double z) {
+double zp_fit_size(double z) {
   static const double least = 1e-3;
   return fmax(fabs(z), least);
 }
@@ -327,7 +326,7 @@ static void differ(ZpFit *fit, const double *z, size_t i, double *value, double 
   for (int k = 0; k < fit->keys && isfinite(*value) && !ask(fit); k++) {
     double at[ZP_FIT_MOST];
     memcpy(at, z, sizeof at);
-    const double step = difference * size_of(z[k]);
+    const double step = difference * zp_fit_size(z[k]);
     const double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
     const double up = zp_fit_predict(fit, at, i);
     at[k] = low;
@@ -371,7 +370,7 @@ static bool difference_run(ZpFit *fit, size_t which, const double *z, const doub
     if (!lacks_slope(fit, which, k, fitted, J)) continue;
     fit->evaluations += 2;
     memcpy(at, z, sizeof at);
-    double step = 10 * difference * size_of(z[k]);
+    double step = 10 * difference * zp_fit_size(z[k]);
     double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
     follow_run(fit, which, at, up, NULL);
     at[k] = low;

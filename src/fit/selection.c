@@ -4,15 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fit/cholesky.h"
+
+void zp_information_add(int n, const double *row, double times, ZpInformation *information) {
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b < n; b++)
+      information->of[a][b] += times * row[a] * row[b];
+}
+
 void zp_selection_add(const ZpSelection *selection, size_t which, double times, ZpInformation *information) {
   const ZpMeasurement *of = &selection->among[which];
-  const size_t n = (size_t)selection->n;
-  for (int k = 0; k < of->count; k++) {
-    const double *row = selection->J + (of->first + (size_t)k * of->step) * n;
-    for (size_t a = 0; a < n; a++)
-      for (size_t b = 0; b < n; b++)
-        information->of[a][b] += times * row[a] * row[b];
-  }
+  for (int k = 0; k < of->count; k++)
+    zp_information_add(selection->n, selection->J + (of->first + (size_t)k * of->step) * (size_t)selection->n, times,
+                       information);
 }
 
 void zp_information_eliminate(int keys, int n, ZpInformation *information) {
@@ -23,60 +27,29 @@ void zp_information_eliminate(int keys, int n, ZpInformation *information) {
         M[a][b] -= M[a][s] * M[s][b] / M[s][s];
 }
 
-/* Lower triangle of S = L L^T => L. False if S is not positive definite. */
-static bool factorise(int keys, const ZpInformation *S, double L[ZP_FIT_KEYS][ZP_FIT_KEYS]) {
-  for (int a = 0; a < keys; a++)
-    for (int b = 0; b <= a; b++) {
-      double sum = S->of[a][b];
-      for (int k = 0; k < b; k++)
-        sum -= L[a][k] * L[b][k];
-      if (a == b && !(sum > 0)) return false;
-      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
-    }
-  return true;
-}
-
-/* Column `of` of the inverse of L L^T. */
-static void solve_unit(int keys, double L[ZP_FIT_KEYS][ZP_FIT_KEYS], int of, double *x) {
-  for (int a = 0; a < keys; a++) {
-    x[a] = a == of;
-    for (int k = 0; k < a; k++)
-      x[a] -= L[a][k] * x[k];
-    x[a] /= L[a][a];
-  }
-  for (int a = keys; a-- > 0;) {
-    for (int k = a + 1; k < keys; k++)
-      x[a] -= L[k][a] * x[k];
-    x[a] /= L[a][a];
-  }
+/* The information about the keys => its factor L. False if they are not determined. */
+static bool factor(const ZpSelection *selection, const ZpInformation *information, ZpInformation *L) {
+  *L = *information;
+  zp_information_eliminate(selection->keys, selection->n, L);
+  return zp_cholesky_factor(selection->keys, 0, L->of);
 }
 
 bool zp_selection_covariance(const ZpSelection *selection, const ZpInformation *information,
                              ZpInformation *covariance) {
-  double L[ZP_FIT_KEYS][ZP_FIT_KEYS] = {{0}}, x[ZP_FIT_KEYS];
-  ZpInformation S = *information;
-  zp_information_eliminate(selection->keys, selection->n, &S);
-  if (!factorise(selection->keys, &S, L)) return false;
-  for (int b = 0; b < selection->keys; b++) {
-    solve_unit(selection->keys, L, b, x);
-    for (int a = 0; a < selection->keys; a++)
-      covariance->of[a][b] = x[a];
-  }
+  ZpInformation L;
+  if (!factor(selection, information, &L)) return false;
+  zp_cholesky_invert(selection->keys, L.of, covariance->of);
   return true;
 }
 
 double zp_selection_value(const ZpSelection *selection, const ZpInformation *information) {
-  double L[ZP_FIT_KEYS][ZP_FIT_KEYS] = {{0}}, x[ZP_FIT_KEYS], value = 0;
-  ZpInformation S = *information;
-  zp_information_eliminate(selection->keys, selection->n, &S);
-  if (!factorise(selection->keys, &S, L)) return -INFINITY;
+  ZpInformation L, C;
+  double value = 0;
+  if (!factor(selection, information, &L)) return -INFINITY;
+  if (selection->criterion == ZP_PLAN_A) zp_cholesky_invert(selection->keys, L.of, C.of);
   for (int k = 0; k < selection->keys; k++) {
-    if (selection->criterion == ZP_PLAN_D) {
-      value += 2 * log(L[k][k] * selection->size[k]);
-    } else {
-      solve_unit(selection->keys, L, k, x);
-      value -= x[k] / (selection->size[k] * selection->size[k]);
-    }
+    const double size = selection->size[k];
+    value += selection->criterion == ZP_PLAN_A ? -C.of[k][k] / (size * size) : 2 * log(L.of[k][k] * size);
   }
   return value;
 }

@@ -26,6 +26,9 @@ typedef struct ZpSelection {
   size_t count;
 } ZpSelection;
 
+/* Add a number with these derivatives [n], over its standard deviation, `times` times (-1: take it away). */
+void zp_information_add(int n, const double *row, double times, ZpInformation *information);
+
 /* Add a measurement `times` times (-1: take it away), (12.7). */
 void zp_selection_add(const ZpSelection *selection, size_t which, double times, ZpInformation *information);
 

@@ -664,6 +664,13 @@ static void skip_rows(ZpFit *fit, ZpFitSet *set) {
   set->rows = kept - set->first;
 }
 
+static ZpStatus fail_skipped(const ZpFit *fit, const char *path, ZpError *err) {
+  const double from = fit->def->calibrate.skip_until, to = fit->def->calibrate.skip_after;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%.200s: no row is between calibrate.skip_until = %g s and calibrate.skip_after = %g s", path,
+                 isnan(from) ? -INFINITY : from, isnan(to) ? INFINITY : to);
+}
+
 /* The measured columns of a file; over time, the record that they are of. */
 static ZpStatus read_file(Reading *r, Measured *measured) {
   ZpFit *fit = r->fit;
@@ -677,9 +684,7 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
                       .file = (size_t)(measured - r->measured)};
     status = read_set(r, set, measured, c);
     if (status == ZP_OK && measured->is_record) skip_rows(fit, set);
-    if (status == ZP_OK && set->rows == 0)
-      status = zp_fail(r->err, ZP_BAD_INPUT, "%.200s: calibrate.skip_until and calibrate.skip_after leave no row",
-                       measured->data->path);
+    if (status == ZP_OK && set->rows == 0) status = fail_skipped(fit, measured->data->path, r->err);
     fit->rows += set->rows;
   }
   return status;

@@ -4,37 +4,22 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "fit/fit.h"
+#include "fit/cholesky.h"
 
 bool zp_fit_covariance(const ZpFit *fit, const double *J, const bool *stays, double ridge, double least,
                        double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
   int n = fit->n;
-  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, M[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}; /* J^T J = L L^T, M = L^-1 */
+  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}; /* J^T J = L L^T */
   for (int a = 0; a < n; a++)
     for (int b = 0; b <= a; b++) {
       bool both = !stays || (!stays[a] && !stays[b]);
       double sum = both ? 0 : a == b;
       for (size_t i = 0; i < fit->rows && both; i++)
         sum += J[i * (size_t)n + (size_t)a] * J[i * (size_t)n + (size_t)b];
-      double whole = sum *= a == b ? 1 + ridge : 1;
-      for (int k = 0; k < b; k++)
-        sum -= L[a][k] * L[b][k];
-      if (a == b && !(sum > least * whole)) return false;
-      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
+      L[a][b] = sum * (a == b ? 1 + ridge : 1);
     }
-  for (int a = 0; a < n; a++)
-    for (int b = 0; b <= a; b++) {
-      double sum = a == b;
-      for (int k = b; k < a; k++)
-        sum -= L[a][k] * M[k][b];
-      M[a][b] = sum / L[a][a];
-    }
-  for (int a = 0; a < n; a++)
-    for (int b = 0; b < n; b++) {
-      C[a][b] = 0;
-      for (int k = a > b ? a : b; k < n; k++)
-        C[a][b] += M[k][a] * M[k][b];
-    }
+  if (!zp_cholesky_factor(n, least, L)) return false;
+  zp_cholesky_invert(n, L, C);
   return true;
 }
 
@@ -68,31 +53,19 @@ static Normal normal_of(const ZpFit *fit, const ZpFitPoint *at, const bool *held
   return normal;
 }
 
-/* Solve (H + damping diag H) step = g by Cholesky. False if H is singular. */
+/* Solve (H + damping diag H) step = g. False if H is singular. */
 static bool damped_step(const ZpFit *fit, const Normal *normal, double damping, double *step) {
-  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, x[ZP_FIT_MOST] = {0};
+  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}};
   const int n = fit->n;
   for (int a = 0; a < n; a++) {
     for (int b = 0; b <= a; b++) {
       const bool both = normal->free[a] && normal->free[b];
-      double sum = both ? normal->H[a][b] : a == b;
-      if (a == b && both) sum *= 1 + damping;
-      for (int k = 0; k < b; k++)
-        sum -= L[a][k] * L[b][k];
-      if (a == b && !(sum > 0)) return false;
-      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
+      L[a][b] = both ? normal->H[a][b] * (a == b ? 1 + damping : 1) : a == b;
     }
-    x[a] = normal->free[a] ? normal->g[a] : 0;
-    for (int k = 0; k < a; k++)
-      x[a] -= L[a][k] * x[k];
-    x[a] /= L[a][a];
+    step[a] = normal->free[a] ? normal->g[a] : 0;
   }
-  for (int a = n; a-- > 0;) {
-    for (int k = a + 1; k < n; k++)
-      x[a] -= L[k][a] * x[k];
-    x[a] /= L[a][a];
-  }
-  memcpy(step, x, (size_t)n * sizeof *step);
+  if (!zp_cholesky_factor(n, 0, L)) return false;
+  zp_cholesky_solve(n, L, step);
   return true;
 }
 
@@ -105,13 +78,12 @@ bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, doubl
  * if the model is linear. */
 static double go(const ZpFit *fit, const Normal *normal, const double *from, const double *step, double *to,
                  double *falls) {
-  static const double least = 1e-3; /* a key may be negative or pass 0 */
   double moved = 0, d[ZP_FIT_MOST];
   *falls = 0;
   for (int k = 0; k < fit->n; k++) {
     to[k] = fmin(fmax(from[k] + step[k], fit->lower[k]), fit->upper[k]);
     d[k] = to[k] - from[k];
-    moved = fmax(moved, fabs(d[k]) / fmax(fabs(from[k]), k < fit->keys ? least : 1));
+    moved = fmax(moved, fabs(d[k]) / (k < fit->keys ? zp_fit_size(from[k]) : fmax(fabs(from[k]), 1)));
     *falls += 2 * normal->g[k] * d[k];
   }
   for (int a = 0; a < fit->n; a++)

@@ -46,19 +46,24 @@ static void keep(const ZpFitPoint *point, Start *start) {
   start->good = point->good;
 }
 
-/* The sum of squares at each start, over the closing. */
-static void look(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
+/* Values at a point, without derivatives. */
+static void find_values(ZpFit *fit, ZpFitPoint *point) {
   double *J = point->J;
   point->J = NULL;
+  zp_fit_go_to(fit, point);
+  point->J = J;
+}
+
+/* The sum of squares at each start, over the closing. */
+static void look(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   fit->horizon = fit->runs > 0 ? 0 : 1;
   for (int k = 0; k < count; k++) {
     start_at(fit, k, point->z);
     point->square = INFINITY, point->good = false;
-    if (zp_fit_goes_on(fit)) zp_fit_go_to(fit, point);
+    if (zp_fit_goes_on(fit)) find_values(fit, point);
     keep(point, &start[k]);
   }
   fit->horizon = 1;
-  point->J = J;
 }
 
 /* First to the minimum over the closing, where the runs are short and depend smoothly on the keys, then on. */
@@ -73,27 +78,27 @@ static void descend_from(ZpFit *fit, int most, Start *start, ZpFitPoint *point) 
   keep(point, start);
 }
 
-/* How many of the starts lead to the same point as the best of them. */
-static int agreeing(const ZpFit *fit, const Start *start, int count) {
-  int best = 0, agree = 0;
+static int best_of(const Start *start, int count) {
+  int best = 0;
   for (int k = 1; k < count; k++)
     if (by_square(&start[k], &start[best]) < 0) best = k;
+  return best;
+}
+
+/* How many of the starts lead to the same point as the best of them. */
+static int agreeing(const ZpFit *fit, const Start *start, int count) {
+  int best = best_of(start, count), agree = 0;
   for (int k = 0; k < count; k++)
     agree += !differ(fit, start[k].z, start[best].z);
   return agree;
 }
 
-/* Has the best of them residuals like noise? */
-static bool point_is_noise(ZpFit *fit, const Start *start, int count, ZpFitPoint *point) {
-  int best = 0;
-  for (int k = 1; k < count; k++)
-    if (by_square(&start[k], &start[best]) < 0) best = k;
-  if (best != count - 1) { /* the last one is still there */
+/* Has the best of them residuals like noise? The last one is still at `point`. */
+static bool is_noise(ZpFit *fit, const Start *start, int count, ZpFitPoint *point) {
+  int best = best_of(start, count);
+  if (best != count - 1) {
     memcpy(point->z, start[best].z, sizeof point->z);
-    double *J = point->J;
-    point->J = NULL;
-    zp_fit_go_to(fit, point);
-    point->J = J;
+    find_values(fit, point);
   }
   const ZpFitJudgement judgement = zp_fit_judge(fit, point);
   return zp_fit_is_noise(&judgement);
@@ -108,7 +113,7 @@ static int descend_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   if (count > 1) qsort(start + 1, (size_t)count - 1, sizeof *start, by_square);
   while (tried < count && zp_fit_goes_on(fit)) {
     descend_from(fit, SCOUT, &start[tried++], point);
-    if (tried >= LEAST && agreeing(fit, start, tried) > 1 && point_is_noise(fit, start, tried, point)) break;
+    if (tried >= LEAST && agreeing(fit, start, tried) > 1 && is_noise(fit, start, tried, point)) break;
   }
   return tried;
 }

@@ -387,13 +387,12 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
   const double parts = zp_parts_abreast(h->at.model);
   zp_rest_go_to(&h->at.rest, h->unpowered_state);
   bool rests = !is_slack(h) && zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
-  double unpowered = rests ? parts * slope->reaction : NAN;
+  double unpowered = rests ? parts * slope->reaction : NAN, less = is_slack(h) ? 0 : unpowered;
   double moment_without = rests ? moment_slope(h, slope) : NAN;
   zp_rest_go_to(&h->at.rest, h->answer);
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
   double torque = found ? moment_slope(h, slope) - moment_without : NAN;
-  zp_result_add_sensitivity(r, "force_N", slope->key,
-                            found ? parts * slope->reaction - (is_slack(h) ? 0 : unpowered) : NAN);
+  zp_result_add_sensitivity(r, "force_N", slope->key, found ? parts * slope->reaction - less : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     zp_result_add_sensitivity(r, others[k].name, slope->key,

@@ -6,12 +6,4 @@
 static const ZpRule rule[] = {ZP_RULE_NO_TABLE, ZP_RULE_ONE_MEMBER, ZP_RULE_STARTS, ZP_RULE_ELASTIC};
 const ZpRules zp_rules_plan = ZP_RULES_OF(rule);
 
-ZpStatus zp_check_plan(const ZpActuatorDef *def, ZpError *err) {
-  (void)def, (void)err;
-  return ZP_OK;
-}
-
-ZpStatus zp_study_plan(const ZpTask *task, ZpResult *result, ZpError *err) {
-  (void)task, (void)result;
-  return zp_fail(err, ZP_BAD_INPUT, "study = plan: run by zp_data_study_run of zipact/calibrate.h");
-}
+ZP_STUDY_OF_FILES(plan)

@@ -53,7 +53,19 @@ ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
         "only study actuate resumes a run"                                                                             \
   }
 
-/* Those of fits, which compute cases by several studies. */
+/* The functions of a study that reads files, which only zp_data_study_run of zipact/calibrate.h runs: a Def that its
+ * rules let pass is good, and without files there is no result. */
+#define ZP_STUDY_OF_FILES(word)                                                                                        \
+  ZpStatus zp_check_##word(const ZpActuatorDef *def, ZpError *err) {                                                   \
+    (void)def, (void)err;                                                                                              \
+    return ZP_OK;                                                                                                      \
+  }                                                                                                                    \
+  ZpStatus zp_study_##word(const ZpTask *task, ZpResult *result, ZpError *err) {                                       \
+    (void)task, (void)result;                                                                                          \
+    return zp_fail(err, ZP_BAD_INPUT, "study = " #word ": run by zp_data_study_run of zipact/calibrate.h");            \
+  }
+
+/* Rules of fits, which compute cases by several studies. */
 #define ZP_RULE_NO_TABLE                                                                                               \
   {                                                                                                                    \
     ZP_RULE_PHYSICS, false, ZP_ANY, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE),                                 \
