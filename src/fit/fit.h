@@ -69,6 +69,10 @@ typedef struct ZpFitNamed {
   unsigned x, y, kinds;
 } ZpFitNamed;
 
+/* Exact derivatives are those of one run with its time steps. Differences over what the data leave open average over the
+ * small jumps that values have where faces touch and part, and cost less; one-sided ones serve a search. */
+typedef enum ZpFitSlopes { ZP_FIT_EXACT, ZP_FIT_ONE_SIDED, ZP_FIT_CENTRAL } ZpFitSlopes;
+
 typedef struct ZpFit {
   const ZpActuatorDef *def;
   bool planned;       /* its rows are possible measurements: they have no values, y is NAN */
@@ -92,7 +96,10 @@ typedef struct ZpFit {
   char layout[300]; /* which lines of a file are its table, where that is not plain */
   double *sigma;    /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   double tolerance; /* of the time steps of records, if solver.tolerance is auto; NAN: the usual one */
-  double enough;    /* a descent ends where the squares would fall by less than this share of their mean */
+  double way[ZP_FIT_KEYS][ZP_FIT_KEYS]; /* steps of differences in columns: changes of z that are independent */
+  double enough;    /* a descent ends where the squares would fall by less than this share of their mean, */
+  double rough;     /* and where they would by less than this, but do not */
+  ZpFitSlopes slopes; /* how the derivatives of records by keys are found */
   double horizon;   /* rows of records count up to the closing and this share of the time after it */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */
@@ -165,12 +172,18 @@ typedef struct ZpFitPoint {
 /* Its arrays; false if there is no memory. Free `fitted` afterwards. */
 bool zp_fit_open_point(ZpFit *fit, ZpFitPoint *point);
 
+/* Steps of differences as parts of the keys, where nothing is known about their errors. */
+void zp_fit_reset_ways(ZpFit *fit);
+
 /* Values, derivatives and the sum of squares at its z. */
 void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point);
 
-/* The step to the minimum of the linear model at a point, with this damping. `held` as below. False if it is not
- * determined. */
-bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double damping, double *step);
+/* Likewise without derivatives: its J stays. */
+void zp_fit_find_values(ZpFit *fit, ZpFitPoint *point);
+
+/* The minimum of the linear model at a point, within the bounds => to [n], and by how much the squares fall until there.
+ * `held` as below. False if it is not determined. */
+bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double *to, double *falls);
 
 /* Go from a point to the nearest minimum within the bounds, in at most so many iterations (Levenberg and Marquardt).
  * `held` [n]: parameters that stay; NULL: none. => whether the minimum was reached. */
@@ -178,8 +191,8 @@ bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point);
 
 /* Minima to which several starts have led. */
 typedef struct ZpFitStarts {
-  int tried, agree;          /* how many starts, and how many of them lead to the best minimum */
-  double best;               /* sum of squares there, with the time steps of the search, */
+  int tried;                 /* how many starts were followed to the end */
+  double best;               /* sum of squares at the best minimum, with the time steps of the search, */
   double next;               /* and sum of squares of the best other minimum; INFINITY: there is none */
   double other[ZP_FIT_MOST]; /* z there */
 } ZpFitStarts;

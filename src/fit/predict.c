@@ -188,7 +188,7 @@ static void read_trace(const ZpFit *fit, const ZpFitSet *of, const double *z, co
     double *row = J + i * (size_t)fit->n;
     memset(row, 0, (size_t)fit->n * sizeof *row);
     for (int k = 0; k < fit->keys; k++)
-      row[k] = sign * (at.by_key[k] - start.by_key[k]) * fit->start[k];
+      row[k] = fit->slopes != ZP_FIT_EXACT ? NAN : sign * (at.by_key[k] - start.by_key[k]) * fit->start[k];
     if (run->late >= 0) row[run->late] = -sign * at.rate * fit->start[run->late];
     if (of->zero >= 0) row[of->zero] = fit->start[of->zero];
   }
@@ -210,6 +210,7 @@ static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted
   const double end = fmax(end_of(fit, which, z), 1e-9);
   const char *signal[ZP_TRACE_SIGNALS];
   size_t signals = 0;
+  const size_t keys = J && fit->slopes == ZP_FIT_EXACT ? (size_t)fit->keys : 0;
   ZpActuatorDef def;
   ZpModel *model = NULL;
   ZpTrace *trace = NULL;
@@ -221,7 +222,7 @@ static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted
   if (status == ZP_OK) status = zp_model_create_driven(&def, record->rows > 0 ? &table : NULL, &model, NULL);
   if (status == ZP_OK)
     status =
-        zp_trace_create(model, signal, signals, fit->key, J ? (size_t)fit->keys : 0, end, fit->hooks, &trace, NULL);
+        zp_trace_create(model, signal, signals, fit->key, keys, end, fit->hooks, &trace, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   size_t k = 0;
   for (size_t i = 0; i < fit->sets && trace; i++) {
@@ -350,37 +351,63 @@ static bool differentiate_set(ZpFit *fit, const ZpFitSet *of, const double *z, d
   return differed;
 }
 
-/* Has the record a value in some row whose derivative by a key is missing? */
-static bool lacks_slope(const ZpFit *fit, size_t which, int key, const double *fitted, const double *J) {
+/* Has the record a value in some row whose derivative by some key is missing? */
+static bool lacks_slope(const ZpFit *fit, size_t which, const double *fitted, const double *J) {
   for (size_t s = 0; s < fit->sets; s++) {
     const ZpFitSet *of = &fit->set[s];
-    if (of->x_key >= 0 || of->run != which) continue;
-    for (size_t i = of->first; i < of->first + of->rows; i++)
-      if (isfinite(fitted[i]) && !isfinite(J[i * (size_t)fit->n + (size_t)key])) return true;
+    for (size_t i = of->first; of->x_key < 0 && of->run == which && i < of->first + of->rows; i++)
+      for (int k = 0; k < fit->keys; k++)
+        if (isfinite(fitted[i]) && !isfinite(J[i * (size_t)fit->n + (size_t)k])) return true;
   }
   return false;
 }
 
-/* The keys' derivatives of a record by finite differences of whole runs, where the run has none. */
+/* The part of a step from z, at most 1, that is within the bounds. */
+static double part_within(const ZpFit *fit, const double *z, int way, double sign) {
+  double part = 1;
+  for (int k = 0; k < fit->keys; k++) {
+    const double step = sign * fit->way[k][way], room = step > 0 ? fit->upper[k] - z[k] : z[k] - fit->lower[k];
+    if (fabs(step) > room) part = fmin(part, room / fabs(step));
+  }
+  return part;
+}
+
+/* A run at a part of a step from z => its values. */
+static void follow_along(ZpFit *fit, size_t which, const double *z, int way, double part, double *values) {
+  double at[ZP_FIT_MOST];
+  memcpy(at, z, sizeof at);
+  for (int k = 0; k < fit->keys; k++)
+    at[k] += part * fit->way[k][way];
+  fit->evaluations++;
+  follow_run(fit, which, at, values, NULL);
+}
+
+/* Changes of the values along a way, whose rows of J have those of all ways behind it: D = J W, where W is a lower
+ * triangle. */
+static void set_slopes(const ZpFit *fit, size_t which, int way, const double *up, const double *down, double parts,
+                       double *J) {
+  for (size_t s = 0; s < fit->sets; s++) {
+    const ZpFitSet *of = &fit->set[s];
+    for (size_t i = of->first; of->x_key < 0 && of->run == which && i < of->first + of->rows; i++) {
+      double *row = J + i * (size_t)fit->n, change = (up[i] - down[i]) / parts;
+      for (int k = way + 1; k < fit->keys; k++)
+        change -= row[k] * fit->way[k][way];
+      row[way] = change / fit->way[way][way];
+    }
+  }
+}
+
+/* The keys' derivatives of a record by finite differences of whole runs. One-sided ones go to the side where more of
+ * the step is within the bounds. */
 static bool difference_run(ZpFit *fit, size_t which, const double *z, const double *fitted, double *J) {
   double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
   if (!up) fit->status = zp_fail_memory(fit->err);
-  for (int k = 0; k < fit->keys && up && !ask(fit); k++) {
-    double at[ZP_FIT_MOST];
-    if (!lacks_slope(fit, which, k, fitted, J)) continue;
-    fit->evaluations += 2;
-    memcpy(at, z, sizeof at);
-    double step = 10 * difference * zp_fit_size(z[k]);
-    double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
-    follow_run(fit, which, at, up, NULL);
-    at[k] = low;
-    follow_run(fit, which, at, down, NULL);
-    for (size_t s = 0; s < fit->sets; s++) {
-      const ZpFitSet *of = &fit->set[s];
-      if (of->x_key >= 0 || of->run != which) continue;
-      for (size_t i = of->first; i < of->first + of->rows; i++)
-        J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
-    }
+  for (int way = fit->keys; way-- > 0 && up && !ask(fit);) {
+    double high = part_within(fit, z, way, 1), low = part_within(fit, z, way, -1);
+    if (fit->slopes == ZP_FIT_ONE_SIDED) *(high < low ? &high : &low) = 0;
+    if (high > 0) follow_along(fit, which, z, way, high, up);
+    if (low > 0) follow_along(fit, which, z, way, -low, down);
+    set_slopes(fit, which, way, high > 0 ? up : fitted, low > 0 ? down : fitted, high + low, J);
   }
   const bool good = up && !fit->stopped && fit->status == ZP_OK;
   free(up);
@@ -390,7 +417,8 @@ static bool difference_run(ZpFit *fit, size_t which, const double *z, const doub
 static bool follow_record(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
   if (ask(fit)) return false;
   follow_run(fit, which, z, fitted, J);
-  return J ? difference_run(fit, which, z, fitted, J) : fit->status == ZP_OK;
+  const bool differs = J && fit->keys > 0 && lacks_slope(fit, which, fitted, J);
+  return differs ? difference_run(fit, which, z, fitted, J) : fit->status == ZP_OK;
 }
 
 /* -- all rows --------------------------------------------------------------------------------------- */

@@ -17,11 +17,6 @@ typedef struct Profile {
   bool better;   /* it fits better than the best point */
 } Profile;
 
-static void look(Profile *p) {
-  p->at.good = zp_fit_evaluate(p->fit, p->at.z, p->at.fitted, NULL);
-  p->at.square = zp_fit_square(p->fit, p->at.fitted);
-}
-
 static void put(const ZpFit *fit, const double *step, double *z) {
   for (int k = 0; k < fit->n; k++)
     z[k] = fmin(fmax(z[k] + step[k], fit->lower[k]), fit->upper[k]);
@@ -32,20 +27,15 @@ static bool correct(Profile *p, const bool *held) {
   enum { MOST = 3 };
   static const double little = 0.03; /* of the rise */
   for (int k = 0; k < MOST; k++) {
-    const ZpFitPoint before = {.square = p->at.square, .fitted = p->at.fitted, .J = p->best->J};
-    double z[ZP_FIT_MOST], step[ZP_FIT_MOST];
-    ZpFitPoint linear = before;
-    memcpy(linear.z, p->at.z, sizeof z);
-    memcpy(z, p->at.z, sizeof z);
-    if (!zp_fit_step(p->fit, &linear, held, 0, step)) return false;
-    put(p->fit, step, p->at.z);
-    look(p);
-    if (p->at.square > before.square) {
-      memcpy(p->at.z, z, sizeof z);
-      look(p);
-      return p->at.square < before.square + little * p->rise;
-    }
-    if (before.square - p->at.square < little * p->rise) return true;
+    ZpFitPoint linear = p->at;
+    double falls;
+    linear.J = p->best->J;
+    if (!zp_fit_step(p->fit, &linear, held, p->at.z, &falls)) return false;
+    if (falls < little * p->rise) return true;
+    zp_fit_find_values(p->fit, &p->at);
+    if (p->at.square < linear.square) continue;
+    memcpy(p->at.z, linear.z, sizeof p->at.z);
+    return false;
   }
   return false;
 }
@@ -61,7 +51,7 @@ static double rise_at(Profile *p, int which, double z) {
   memcpy(p->at.z, p->best->z, sizeof p->at.z);
   put(p->fit, step, p->at.z);
   p->at.z[which] = z;
-  look(p);
+  zp_fit_find_values(p->fit, &p->at);
   if (p->fit->n > 1 && !correct(p, held)) {
     zp_fit_go_to(p->fit, &p->at);
     zp_fit_descend(p->fit, held, MOST, &p->at);

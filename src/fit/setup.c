@@ -124,20 +124,26 @@ static ZpStatus open_fit(ZpFit *fit, bool all, ZpError *err) {
   return status == ZP_OK ? zp_fit_read_sets(fit, all, err) : status;
 }
 
+static void start(const ZpActuatorDef *def, const char *source, ZpFit *fit, ZpError *err) {
+  *fit = (ZpFit){.def = def, .source = source, .tolerance = NAN, .horizon = 1, .err = err};
+  zp_fit_reset_ways(fit);
+}
+
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .source = "data.file", .tolerance = NAN, .horizon = 1, .err = err};
+  start(def, "data.file", fit, err);
   if (*def->data.file == 0)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
   return open_fit(fit, true, err);
 }
 
 ZpStatus zp_fit_open_present(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .source = "data.file", .tolerance = NAN, .horizon = 1, .err = err};
+  start(def, "data.file", fit, err);
   return open_fit(fit, false, err);
 }
 
 ZpStatus zp_fit_open_candidates(const ZpActuatorDef *def, const ZpFit *data, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .planned = true, .source = "plan.candidates", .tolerance = NAN, .horizon = 1, .err = err};
+  start(def, "plan.candidates", fit, err);
+  fit->planned = true;
   if (data) fit->named = data->named;
   if (*def->plan.candidates == 0)
     return zp_fail(err, ZP_BAD_INPUT, "plan.candidates: empty; study plan needs a CSV file of possible measurements");

@@ -69,21 +69,22 @@ static bool damped_step(const ZpFit *fit, const Normal *normal, double damping, 
   return true;
 }
 
-bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double damping, double *step) {
-  const Normal normal = normal_of(fit, at, held);
-  return damped_step(fit, &normal, damping, step);
+/* Size of a parameter with which its changes are compared. */
+static double size_of(const ZpFit *fit, int k, double z) {
+  return k < fit->keys ? zp_fit_size(z) : fmax(fabs(z), 1);
 }
 
 /* A step within the bounds => how far it goes, in multiples of the parameters' sizes, and by how much the squares fall
- * if the model is linear. */
+ * if the model is linear. Positive keys change by a factor, since they trade against each other by powers. */
 static double go(const ZpFit *fit, const Normal *normal, const double *from, const double *step, double *to,
                  double *falls) {
   double moved = 0, d[ZP_FIT_MOST];
   *falls = 0;
   for (int k = 0; k < fit->n; k++) {
-    to[k] = fmin(fmax(from[k] + step[k], fit->lower[k]), fit->upper[k]);
+    const double end = fit->lower[k] > 0 ? from[k] * exp(step[k] / from[k]) : from[k] + step[k];
+    to[k] = fmin(fmax(end, fit->lower[k]), fit->upper[k]);
     d[k] = to[k] - from[k];
-    moved = fmax(moved, fabs(d[k]) / (k < fit->keys ? zp_fit_size(from[k]) : fmax(fabs(from[k]), 1)));
+    moved = fmax(moved, fabs(d[k]) / size_of(fit, k, from[k]));
     *falls += 2 * normal->g[k] * d[k];
   }
   for (int a = 0; a < fit->n; a++)
@@ -92,10 +93,18 @@ static double go(const ZpFit *fit, const Normal *normal, const double *from, con
   return moved;
 }
 
+bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double *to, double *falls) {
+  const Normal normal = normal_of(fit, at, held);
+  double step[ZP_FIT_MOST];
+  const bool found = damped_step(fit, &normal, 0, step);
+  if (found) go(fit, &normal, at->z, step, to, falls);
+  return found;
+}
+
 /* Both have arrays of their own, J behind the fitted values. */
-static void copy_point(const ZpFit *fit, const ZpFitPoint *from, ZpFitPoint *to) {
+static void copy_point(const ZpFit *fit, const ZpFitPoint *from, bool with_slopes, ZpFitPoint *to) {
   memcpy(to->z, from->z, sizeof to->z);
-  memcpy(to->fitted, from->fitted, fit->rows * (size_t)(fit->n + 1) * sizeof *to->fitted);
+  memcpy(to->fitted, from->fitted, fit->rows * (size_t)(with_slopes ? fit->n + 1 : 1) * sizeof *to->fitted);
   to->square = from->square;
   to->good = from->good;
 }
@@ -113,34 +122,140 @@ void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point) {
   point->square = zp_fit_square(fit, point->fitted);
 }
 
+void zp_fit_find_values(ZpFit *fit, ZpFitPoint *point) {
+  point->good = zp_fit_evaluate(fit, point->z, point->fitted, NULL);
+  point->square = zp_fit_square(fit, point->fitted);
+}
+
 bool zp_fit_goes_on(const ZpFit *fit) {
   return !fit->stopped && fit->status == ZP_OK;
 }
 
-bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
-  static const double near = 1e-9, flat = 1e-9, weakest = 1e-12, strongest = 1e8;
-  const double rough = fit->enough > 0 ? 0.02 : 0;
-  ZpFitPoint trial = {0};
-  double damping = 1e-3;
-  bool found = fit->n == 0, moves = zp_fit_open_point(fit, &trial);
-  for (int k = 0; k < most && moves && !found && zp_fit_goes_on(fit); k++) {
-    const double variance = point->square / (double)fit->rows;
-    const Normal normal = normal_of(fit, point, held);
-    double step[ZP_FIT_MOST], falls, moved = 0;
-    for (moves = false; !moves && !found && damping < strongest && zp_fit_goes_on(fit); damping *= moves ? 0.2 : 8) {
-      if (!damped_step(fit, &normal, damping, step)) continue;
-      moved = go(fit, &normal, point->z, step, trial.z, &falls);
-      found = moved < near || falls < fmax(flat * flat * point->square, fit->enough * variance);
-      if (found) break;
-      zp_fit_go_to(fit, &trial);
-      moves = trial.square < point->square && (trial.good || !point->good);
-      found = !moves && falls < rough * variance;
-    }
-    damping = fmax(damping, weakest);
-    if (!moves) break;
-    found |= moved < near || point->square - trial.square < flat * flat * point->square;
-    copy_point(fit, &trial, point);
+/* A descent under way. Derivatives of runs cost several times as much as values, so they are kept as long as they
+ * foresee how far the squares fall. */
+typedef struct Descent {
+  ZpFitPoint *point, trial; /* where it is, with derivatives, and where it may go, with values */
+  bool keeps;               /* derivatives may be those of an earlier point, */
+  bool kept;                /* and are */
+  double foreseen;          /* fall of the squares since they were found */
+  double damping, growth;   /* of the damping after the next step that is not taken */
+} Descent;
+
+void zp_fit_reset_ways(ZpFit *fit) {
+  static const double part = 1e-3;
+  memset(fit->way, 0, sizeof fit->way);
+  for (int k = 0; k < ZP_FIT_KEYS; k++)
+    fit->way[k][k] = part;
+}
+
+/* Steps of the next differences: independent changes of the keys, each of two standard errors where the shifts are
+ * known. So what is accurate enough to find the keys is accurate enough for their derivatives, also along a valley. */
+static void turn_ways(ZpFit *fit, const Descent *d) {
+  static const double most = 0.03; /* of a key's size */
+  const Normal normal = normal_of(fit, d->point, NULL);
+  double L[ZP_FIT_MOST][ZP_FIT_MOST], C[ZP_FIT_MOST][ZP_FIT_MOST];
+  memcpy(L, normal.H, sizeof L);
+  if (!zp_cholesky_factor(fit->keys, 1e-12, L)) return;
+  zp_cholesky_invert(fit->keys, L, C);
+  if (!zp_cholesky_factor(fit->keys, 0, C)) return;
+  for (int way = 0; way < fit->keys; way++) {
+    double step = 2 * sqrt(d->point->square / (double)fit->rows);
+    for (int k = way; k < fit->keys; k++)
+      step = fmin(step, most * zp_fit_size(d->point->z[k]) / fabs(C[k][way]));
+    for (int k = way; k < fit->keys; k++)
+      fit->way[k][way] = step * C[k][way];
   }
-  free(trial.fitted);
+}
+
+static void renew(ZpFit *fit, Descent *d) {
+  if (fit->slopes != ZP_FIT_EXACT) turn_ways(fit, d);
+  zp_fit_go_to(fit, d->point);
+  d->kept = false;
+  d->foreseen = 0;
+}
+
+/* More damping, the more so the more often; after a step, more or less, as the squares fell by less or more than half
+ * of what was foreseen (Nielsen). */
+static void damp(Descent *d) {
+  d->damping *= d->growth;
+  d->growth *= 2;
+}
+
+static void relax(Descent *d, double ratio) {
+  const double off = 2 * fmin(ratio, 2) - 1;
+  d->damping = fmax(d->damping * fmax(1 - off * off * off, 1. / 3), 1e-12);
+  d->growth = 2;
+}
+
+/* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden). */
+static void learn(const ZpFit *fit, Descent *d) {
+  double along[ZP_FIT_MOST], step[ZP_FIT_MOST], squares = 0;
+  for (int k = 0; k < fit->n; k++) {
+    const double size = size_of(fit, k, d->point->z[k]);
+    step[k] = d->trial.z[k] - d->point->z[k];
+    along[k] = step[k] / (size * size);
+    squares += step[k] * along[k];
+  }
+  for (size_t i = 0; i < fit->rows; i++) {
+    double *row = d->point->J + i * (size_t)fit->n;
+    double off = zp_fit_residual(fit, d->trial.fitted, i) - zp_fit_residual(fit, d->point->fitted, i);
+    for (int k = 0; k < fit->n; k++)
+      off -= row[k] * step[k];
+    for (int k = 0; k < fit->n && isfinite(off); k++)
+      row[k] += off * along[k] / squares;
+  }
+}
+
+/* To the trial, if it is better => whether something has changed. */
+static bool take(ZpFit *fit, Descent *d, double falls) {
+  static const double poor = 0.5; /* part of the fall foreseen, below which kept derivatives are renewed */
+  const double fell = d->point->square - d->trial.square;
+  const bool better = fell > 0 && (d->trial.good || !d->point->good);
+  const bool renews = d->keeps && (better ? fell < poor * falls : d->kept);
+  if (better) {
+    if (d->keeps) learn(fit, d);
+    copy_point(fit, &d->trial, !d->keeps, d->point);
+    d->kept = d->keeps;
+    d->foreseen += falls;
+    relax(d, fell / falls);
+  } else if (!renews) {
+    damp(d);
+  }
+  if (renews) renew(fit, d);
+  return better || renews;
+}
+
+/* One step => whether the point is the minimum. */
+static bool descend(ZpFit *fit, const bool *held, Descent *d) {
+  static const double near = 1e-9, flat = 1e-9;
+  const double variance = d->point->square / (double)fit->rows;
+  const Normal normal = normal_of(fit, d->point, held);
+  double step[ZP_FIT_MOST], falls, before = d->point->square;
+  if (!damped_step(fit, &normal, d->damping, step)) {
+    damp(d);
+    return false;
+  }
+  const double moved = go(fit, &normal, d->point->z, step, d->trial.z, &falls);
+  if (moved < near || (falls >= 0 && falls < fmax(flat * flat * before, fit->enough * variance))) return true;
+  if (falls < 0) { /* it is so long that a factor is far from linear */
+    damp(d);
+    return false;
+  }
+  if (d->keeps)
+    zp_fit_find_values(fit, &d->trial);
+  else
+    zp_fit_go_to(fit, &d->trial);
+  if (!take(fit, d, falls)) return falls < fit->rough * variance;
+  return before > d->point->square && before - d->point->square < flat * flat * before;
+}
+
+bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
+  static const double strongest = 1e8, far = 0.1; /* how far the squares may have fallen with derivatives kept to the end */
+  Descent d = {.point = point, .keeps = fit->runs > 0, .damping = 1e-3, .growth = 2};
+  bool found = fit->n == 0, opened = zp_fit_open_point(fit, &d.trial);
+  for (int k = 0; k < most && opened && !found && d.damping < strongest && zp_fit_goes_on(fit); k++)
+    found = descend(fit, held, &d);
+  if (d.foreseen > far * point->square / (double)fit->rows && zp_fit_goes_on(fit)) renew(fit, &d);
+  free(d.trial.fitted);
   return found;
 }

@@ -13,7 +13,7 @@
 static void start_at(const ZpFit *fit, int which, double *z) {
   for (int k = 0; k < fit->n; k++) {
     const double low = fit->lower[k], high = fit->upper[k];
-    const double part = (zp_sobol((uint32_t)which, k % ZP_SOBOL_DIMENSIONS) + 0.5) / 4294967296.0;
+    const double part = (zp_sobol((uint32_t)which + 1, k % ZP_SOBOL_DIMENSIONS) + 0.5) / 4294967296.0;
     z[k] = fmin(fmax(fit->first[k], low), high);
     if (which == 0 || k >= fit->keys) continue;
     z[k] = low > 0 ? low * pow(high / low, part) : low + part * (high - low);
@@ -30,6 +30,7 @@ static bool differ(const ZpFit *fit, const double *a, const double *b) {
 
 typedef struct Start {
   double z[ZP_FIT_MOST], square;
+  double tolerance; /* of the time steps with which it was found */
   bool good, ended;
 } Start;
 
@@ -46,36 +47,16 @@ static void keep(const ZpFitPoint *point, Start *start) {
   start->good = point->good;
 }
 
-/* Values at a point, without derivatives. */
-static void find_values(ZpFit *fit, ZpFitPoint *point) {
-  double *J = point->J;
-  point->J = NULL;
-  zp_fit_go_to(fit, point);
-  point->J = J;
-}
-
 /* The sum of squares at each start, over the closing. */
 static void look(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   fit->horizon = fit->runs > 0 ? 0 : 1;
   for (int k = 0; k < count; k++) {
     start_at(fit, k, point->z);
     point->square = INFINITY, point->good = false;
-    if (zp_fit_goes_on(fit)) find_values(fit, point);
+    if (zp_fit_goes_on(fit)) zp_fit_find_values(fit, point);
     keep(point, &start[k]);
   }
   fit->horizon = 1;
-}
-
-/* First to the minimum over the closing, where the runs are short and depend smoothly on the keys, then on. */
-static void descend_from(ZpFit *fit, int most, Start *start, ZpFitPoint *point) {
-  static const double horizon[] = {0, 0.3, 1};
-  memcpy(point->z, start->z, sizeof point->z);
-  for (size_t k = fit->runs > 0 ? 0 : 2; k < sizeof horizon / sizeof horizon[0]; k++) {
-    fit->horizon = horizon[k];
-    zp_fit_go_to(fit, point);
-    start->ended = zp_fit_descend(fit, NULL, most, point);
-  }
-  keep(point, start);
 }
 
 static int best_of(const Start *start, int count) {
@@ -85,37 +66,86 @@ static int best_of(const Start *start, int count) {
   return best;
 }
 
-/* How many of the starts lead to the same point as the best of them. */
-static int agreeing(const ZpFit *fit, const Start *start, int count) {
-  int best = best_of(start, count), agree = 0;
+/* Go from a start to the minimum over a part of the time. */
+static void descend_from(ZpFit *fit, double horizon, Start *start, ZpFitPoint *point) {
+  enum { MOST = 20 };
+  zp_fit_reset_ways(fit);
+  fit->horizon = horizon;
+  memcpy(point->z, start->z, sizeof point->z);
+  zp_fit_go_to(fit, point);
+  start->ended = zp_fit_descend(fit, NULL, MOST, point);
+  keep(point, start);
+  fit->horizon = 1;
+}
+
+/* Have two of the starts come to the best sum of squares? In a valley they may be far apart. */
+static bool is_reached_twice(const ZpFit *fit, const Start *start, int count) {
+  static const double little = 4; /* times their mean */
+  const double best = start[best_of(start, count)].square;
+  int reached = 0;
   for (int k = 0; k < count; k++)
-    agree += !differ(fit, start[k].z, start[best].z);
-  return agree;
+    reached += start[k].square <= best * (1 + little / (double)fit->rows);
+  return reached > 1;
 }
 
-/* Has the best of them residuals like noise? The last one is still at `point`. */
-static bool is_noise(ZpFit *fit, const Start *start, int count, ZpFitPoint *point) {
-  int best = best_of(start, count);
-  if (best != count - 1) {
-    memcpy(point->z, start[best].z, sizeof point->z);
-    find_values(fit, point);
-  }
-  const ZpFitJudgement judgement = zp_fit_judge(fit, point);
-  return zp_fit_is_noise(&judgement);
-}
-
-/* Descend from the given values, then from the others, the most promising first, until two agree on the best, and its
- * residuals are noise. */
-static int descend_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
-  enum { SCOUT = 20, LEAST = 2 };
+/* From the given values, then from the others, the most promising first, to the minima over the closing, where the runs
+ * are short and depend smoothly on the keys, until two agree => how many. */
+static int descend_closing(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   int tried = 0;
-  look(fit, start, count, point);
   if (count > 1) qsort(start + 1, (size_t)count - 1, sizeof *start, by_square);
-  while (tried < count && zp_fit_goes_on(fit)) {
-    descend_from(fit, SCOUT, &start[tried++], point);
-    if (tried >= LEAST && agreeing(fit, start, tried) > 1 && is_noise(fit, start, tried, point)) break;
-  }
+  while (tried < count && zp_fit_goes_on(fit) && !(tried > 1 && is_reached_twice(fit, start, tried)))
+    descend_from(fit, 0, &start[tried++], point);
+  qsort(start, (size_t)tried, sizeof *start, by_square);
   return tried;
+}
+
+/* By how much the errors of the time steps move the parameters, at most, in standard errors: steps of a quarter of the
+ * tolerance change the values, and the point then has those. */
+static double error_of_steps(ZpFit *fit, ZpFitPoint *at, double *change) {
+  double C[ZP_FIT_MOST][ZP_FIT_MOST], moved = 0;
+  for (size_t i = 0; i < fit->rows; i++)
+    change[i] = -zp_fit_residual(fit, at->fitted, i);
+  fit->tolerance /= 4;
+  zp_fit_find_values(fit, at);
+  if (!zp_fit_covariance(fit, at->J, NULL, 1e-10, 1e-12, C)) return INFINITY;
+  const double variance = zp_fit_judge(fit, at).variance;
+  for (int a = 0; a < fit->n; a++) {
+    double move = 0;
+    for (size_t i = 0; i < fit->rows; i++)
+      for (int b = 0; b < fit->n; b++)
+        move += C[a][b] * at->J[i * (size_t)fit->n + (size_t)b] * (change[i] + zp_fit_residual(fit, at->fitted, i));
+    moved = fmax(moved, fabs(move) / sqrt(variance * C[a][a]));
+  }
+  return moved;
+}
+
+/* A tolerance with which the errors of the steps are small beside the standard errors. What is left after the last step
+ * to it is a third of what that changes. */
+static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
+  static const double little = 0.3, least = 1e-5;
+  double *change = fit->runs > 0 ? calloc(fit->rows, sizeof *change) : NULL, error = INFINITY;
+  if (fit->runs > 0 && !change) fit->status = zp_fail_memory(fit->err);
+  while (change && zp_fit_goes_on(fit) && at->good && fit->tolerance > least && !(error < little))
+    error = error_of_steps(fit, at, change);
+  free(change);
+}
+
+static const double searching = 1e-4; /* tolerance of the time steps of a search over a part of the time */
+
+/* From a minimum over the closing on, over more and more of the time. Over all of it faces touch and part so often that
+ * only accurate steps give a sum of squares that is smooth => whether the residuals are noise. */
+static bool follow_motion(ZpFit *fit, Start *start, ZpFitPoint *point) {
+  static const double horizon[] = {0.15, 0.4};
+  fit->tolerance = searching;
+  for (size_t k = 0; fit->runs > 0 && k < sizeof horizon / sizeof horizon[0]; k++)
+    descend_from(fit, horizon[k], start, point);
+  memcpy(point->z, start->z, sizeof point->z);
+  zp_fit_go_to(fit, point);
+  find_tolerance(fit, point);
+  descend_from(fit, 1, start, point);
+  start->tolerance = fit->tolerance;
+  const ZpFitJudgement judgement = zp_fit_judge(fit, point);
+  return point->good && zp_fit_is_noise(&judgement);
 }
 
 /* When a column of a record has first done half of what it does. */
@@ -143,68 +173,55 @@ static void find_closings(ZpFit *fit) {
   }
 }
 
-/* Sum of squares of what the errors of the time steps add to the residuals, by steps of a quarter of the tolerance,
- * with which the point then has its values. */
-static double error_of_steps(ZpFit *fit, ZpFitPoint *at, double *before) {
-  double sum = 0;
-  memcpy(before, at->fitted, fit->rows * sizeof *before);
-  fit->tolerance /= 4;
-  at->good = zp_fit_evaluate(fit, at->z, at->fitted, NULL);
-  at->square = zp_fit_square(fit, at->fitted);
-  for (size_t i = 0; i < fit->rows && at->good; i++) {
-    const double change = zp_fit_residual(fit, at->fitted, i) - zp_fit_residual(fit, before, i);
-    sum += change * change;
-  }
-  return sum;
-}
-
-/* A tolerance with which the errors of the steps are small beside the standard errors: the last step to it changes all
- * rows together by less than a part of the noise of one. */
-static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
-  static const double part = 0.5, least = 1e-5;
-  double *before = fit->runs > 0 ? calloc(fit->rows, sizeof *before) : NULL;
-  if (fit->runs > 0 && !before) fit->status = zp_fail_memory(fit->err);
-  while (before && zp_fit_goes_on(fit) && at->good && fit->tolerance > least) {
-    const double error = error_of_steps(fit, at, before);
-    if (error < part * part * zp_fit_judge(fit, at).variance) break;
-  }
-  free(before);
-}
-
-/* The best minimum with accurate time steps. */
+/* The best minimum by the derivatives of which its intervals are. */
 static void refine(ZpFit *fit, ZpFitPoint *best) {
   enum { MOST = 60 };
-  fit->enough = fit->runs > 0 ? 1e-6 : 0;
-  find_tolerance(fit, best);
+  fit->enough = fit->runs > 0 ? 1e-3 : 0;
+  fit->rough = fit->runs > 0 ? 0.1 : 0;
+  fit->slopes = ZP_FIT_CENTRAL;
   zp_fit_go_to(fit, best);
   best->ended = zp_fit_descend(fit, NULL, MOST, best);
 }
 
+/* The best of the minima, and the best other one. */
+static void compare(const ZpFit *fit, Start *start, ZpFitStarts *starts) {
+  if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
+  starts->best = start->square;
+  for (int k = 1; k < starts->tried; k++) {
+    if (!differ(fit, start[k].z, start->z) || !start[k].good || !start[k].ended || start[k].square >= starts->next)
+      continue;
+    starts->next = start[k].square;
+    memcpy(starts->other, start[k].z, sizeof starts->other);
+  }
+}
+
+/* How a search goes over the motion. Its values are rough where faces touch and part. */
+static void prepare(ZpFit *fit) {
+  const bool moves = fit->runs > 0;
+  find_closings(fit);
+  fit->tolerance = searching;
+  fit->slopes = ZP_FIT_ONE_SIDED;
+  fit->enough = moves ? 0.3 : 0.02;
+  fit->rough = moves ? 10 : 0.02;
+}
+
 bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
-  static const double searching = 1e-4; /* of the time steps of a search */
   const int count = fit->keys > 0 ? fit->def->calibrate.starts : 1;
   Start *start = calloc((size_t)count, sizeof *start);
   *starts = (ZpFitStarts){.next = INFINITY};
-  find_closings(fit);
-  fit->tolerance = searching;
-  fit->enough = 0.02;
   if (!start) {
     fit->status = zp_fail_memory(fit->err);
     return false;
   }
-  starts->tried = descend_all(fit, start, count, best);
-  if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
-  for (int k = 0; k < starts->tried; k++) {
-    const bool same = !differ(fit, start[k].z, start->z);
-    starts->agree += same;
-    if (same || !start[k].good || !start[k].ended || start[k].square >= starts->next) continue;
-    starts->next = start[k].square;
-    memcpy(starts->other, start[k].z, sizeof starts->other);
-  }
+  prepare(fit);
+  look(fit, start, count, best);
+  const int minima = descend_closing(fit, start, count, best);
+  for (bool noise = false; starts->tried < minima && !(noise && fit->runs > 0) && zp_fit_goes_on(fit);)
+    noise = follow_motion(fit, &start[starts->tried++], best);
+  compare(fit, start, starts);
   if (zp_fit_goes_on(fit)) {
     memcpy(best->z, start->z, sizeof best->z);
-    zp_fit_go_to(fit, best);
-    starts->best = best->square;
+    fit->tolerance = start->tolerance;
     refine(fit, best);
   }
   free(start);
