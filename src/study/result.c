@@ -9,6 +9,15 @@
 #include "base/memory.h"
 #include "study/studies.h"
 
+const char *const zp_further_name[ZP_FURTHER] = {[ZP_FURTHER_LIKELIHOOD] = "likelihood", [ZP_FURTHER_REGIONS] = "regions"};
+
+void zp_result_forget_further(ZpResult *result) {
+  for (int k = 0; k < ZP_FURTHER; k++) {
+    zp_table_destroy(result->further[k]);
+    result->further[k] = NULL;
+  }
+}
+
 ZpResult *zp_result_create(ZpStudy study) {
   ZpResult *result = zp_calloc(1, sizeof *result);
   if (result) result->study = study;
@@ -25,6 +34,7 @@ void zp_result_forget_states(ZpResult *result) {
 void zp_result_destroy(ZpResult *result) {
   if (!result) return;
   zp_result_clear(result);
+  zp_result_forget_further(result);
   zp_shapes_destroy(result->shapes);
   zp_field_map_destroy(result->map);
   zp_checkpoint_destroy(result->checkpoint);
