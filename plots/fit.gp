@@ -12,11 +12,13 @@ spans_decades(low, high) = low > 0 && high > 20*low
 set ylabel label(quantity[k], unit(both, si[k])) offset 0.5
 if (spans_decades(measured_min_x, measured_max_x) && spans_decades(measured_min_y, measured_max_y)) {
   set logscale xy
-  set offsets graph 0.1, graph 0.1, graph 0.1, graph 0.1
+  beside = 0.1
+  set offsets graph beside, graph beside, graph 0.1, graph 0.1
 } else {
   set autoscale noextend
-  if (over_time) { set yrange [*:*] } else { set yrange [0:*] }
-  set offsets graph 0.04, graph 0.04, graph 0.06, 0
+  if (!over_time) { set yrange [0:*] }
+  beside = 0.04
+  set offsets graph beside, graph beside, graph 0.06, 0
 }
 set multiplot
 set bmargin at screen bottom + 0.23
@@ -35,11 +37,10 @@ unset label
 set tmargin at screen bottom + 0.18
 set bmargin at screen bottom
 set format x
-x_span = (measured_max_x - measured_min_x)*1.08
 set xlabel label(x_name[k], x_unit[k])
 set ylabel rest_label offset 0.5
 if (over_sigma) { set yrange [*<-2.4:2.4<*] } else { set yrange [*:*] }
-set offsets graph 0.04, graph 0.04, graph 0.15, graph 0.15
+set offsets graph beside, graph beside, graph 0.15, graph 0.15
 do for [i=1:2*over_sigma] { set arrow i from graph 0, first 1.96*(2*i - 3) to graph 1, first 1.96*(2*i - 3) nohead lw 1 dt 6 lc rgb '#777777' }
 set xzeroaxis lt 1 lw 1 lc rgb '#555555'
 plot data using (x(0)):(left(0)) with impulses lw 1.5*ring lc rgb colour(2) notitle, \

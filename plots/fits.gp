@@ -10,7 +10,7 @@ load 'style.gp'
 at(y) = 1 - y/(1.0*height) # y in pixels from above
 set label 1 title at screen 0.025, at(22)
 set label 2 subtitle at screen 0.025, at(44)
-set key at screen right, at(10) right top horizontal noreverse Right maxrows 1
+set key at screen right, at(3) right top vertical noreverse Right spacing 0.95 maxrows 3
 set tics font ',11'
 set multiplot
 do for [k=1:panels] {
@@ -21,7 +21,6 @@ do for [k=1:panels] {
   set rmargin at screen 0.50
   load 'of_fit.gp'
   set autoscale noextend
-  set yrange [*:*]
   set offsets graph 0.06, graph 0.06, graph 0.12, graph 0.12
   set ytics step((max(measured_max_y, computed_max_y) - (measured_min_y < computed_min_y ? measured_min_y : computed_min_y))*y_factor*1.24, 5)
   set xlabel label(x_name[k], x_unit[k]) font ',12' offset 0,0.5

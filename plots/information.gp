@@ -8,7 +8,7 @@ _told(l, n) = n > words(l) ? '' : (word(l, n)[1:strlen(prefix)] eq prefix ? word
 told = _told(all_columns, 1)
 shares = words(told)
 array share_in[shares]
-array sum[shares]
+array total[shares]
 array share_name[shares]
 letters = 0
 do for [j=1:shares] {
@@ -21,6 +21,7 @@ height = 70 + (lines + 60)*panels
 load 'style.gp'
 at(y) = 1 - y/(1.0*height) # y in pixels from above
 set tics font ',11'
+told_of(j) = sprintf('%s: %.0f %%', share_name[j], total[j])
 set multiplot
 do for [k=1:panels] {
   if (k > 1) { unset label }
@@ -32,7 +33,7 @@ do for [k=1:panels] {
   most = 0
   do for [j=1:shares] {
     stats data using (x(0)):(share(j)) name 'of' nooutput
-    sum[j] = of_sum_y
+    total[j] = of_sum_y
     most = max(most, of_max_y)
   }
   beside(j) = over_time ? 0 : (j - 0.5*(shares + 1))*0.012*(measured_max_x - measured_min_x)
@@ -43,7 +44,8 @@ do for [k=1:panels] {
   set xlabel label(x_name[k], x_unit[k]) font ',12' offset 0,0.5
   set ylabel quantity[k].': share / %' font ',12' offset 0.5
   set key at screen right + 0.015, at(above - 8) left top Left reverse samplen 2 spacing 1.1 font ',11'
-  plot for [j=1:shares] data using (x(0) + beside(j)):(share(j)) with impulses lw (over_time ? 0.7 : 2) lc rgb colour(j) notitle, \
-       for [j=1:shares] data using (x(0) + beside(j)):(share(j)) with points pt (4 + j) ps 0.7*ring lc rgb colour(j) title sprintf('%s: %.0f %%', share_name[j], sum[j])
+  plot for [j=1:over_time*shares] data using (x(0)):(line(share(j))) with lines lw 2 dt dash(j) lc rgb colour(j) title told_of(j), \
+       for [j=1:!over_time*shares] data using (x(0) + beside(j)):(share(j)) with impulses lw 2 lc rgb colour(j) notitle, \
+       for [j=1:!over_time*shares] data using (x(0) + beside(j)):(share(j)) with points pt (4 + j) ps 0.7 lc rgb colour(j) title told_of(j)
 }
 unset multiplot

@@ -1,7 +1,8 @@
 #picture likelihood.svg one fit :likelihood
 # For each fitted parameter: by how much the sum of squares rises where it is held and the others are fitted again, the level
 # of 95 of 100, where the interval ends, and the parabola of the standard error. Between the points that were computed the
-# root of the rise is interpolated, next to the best value by parabolas that leave it as that of the standard error does.
+# root of the rise is interpolated: next to the best value by parabolas that leave it as that of the standard error does, if
+# these only rise; otherwise by lines.
 listed = likelihood_columns
 skipped = 3
 load 'of_parameters.gp'
@@ -11,8 +12,8 @@ load 'grid.gp'
 array off[300]
 array root[300]
 _is(v) = v == v
-# the signed root of the rise d beside the best value: beyond point i, towards i + 1
-_near(d, i) = d/error + (root[i]/off[i] - 1/error)*d*d/off[i]
+# the signed root of the rise d beside the best value, between it and point i, and between points i and i + 1
+_near(d, i) = root[i]/off[i] > 0.5/error ? d/error + (root[i]/off[i] - 1/error)*d*d/off[i] : d*root[i]/off[i]
 _line(d, i) = root[i] + (root[i + 1] - root[i])*(d - off[i])/(off[i + 1] - off[i])
 _between(d, i) = off[i + 1] == 0 ? _near(d, i) : off[i] == 0 ? _near(d, i + 1) : _line(d, i)
 _seek(d, i) = i >= points ? NaN : d <= off[i + 1] ? _between(d, i) : _seek(d, i + 1)

@@ -6,6 +6,7 @@ computed(c) = column(y_in[k] + 1)
 residual(c) = column(y_in[k] + 2)
 sigma(c) = column(y_in[k] + 3)
 bar(c) = weighted ? sigma(c) : NaN # half of an error bar
+set yrange [*:*] # which statistics heed
 title_measured = weighted ? 'measured ± σ' : 'measured'
 stats data using (x(0)):(measured(0)) name 'measured' nooutput
 stats data using (x(0)):(computed(0)) name 'computed' nooutput

@@ -256,10 +256,13 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
 double zp_fit_level(const ZpFit *fit);
 double zp_fit_joint_level(const ZpFit *fit);
 
+/* Correlation of the estimates of two parameters; C: the covariance in units of z. */
+double zp_fit_correlation(const ZpFit *fit, double C[ZP_FIT_MOST][ZP_FIT_MOST], int a, int b);
+
 /* Is parameter k at one of its bounds? */
 bool zp_fit_at_bound(const ZpFit *fit, const double *z, int k);
 
-/* The share of what all rows tell about parameter k that this row tells, (12.12). C: the covariance in units of z. */
+/* The share of what all rows tell about parameter k that this row tells, (12.12). C as above. */
 double zp_fit_share(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST], size_t row, int k);
 
 /* Tables of the profiles and of the joint regions at the best point; NULL if there is no memory, as `fit` then says, or

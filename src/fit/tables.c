@@ -16,6 +16,10 @@ double zp_fit_joint_level(const ZpFit *fit) {
   return fit->sigma ? -2 * log(beyond) : freedom * expm1(-2 / freedom * log(beyond));
 }
 
+double zp_fit_correlation(const ZpFit *fit, double C[ZP_FIT_MOST][ZP_FIT_MOST], int a, int b) {
+  return copysign(1, fit->start[a] * fit->start[b]) * C[a][b] / sqrt(C[a][a] * C[b][b]);
+}
+
 double zp_fit_share(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST], size_t row, int k) {
   double own = 0; /* derivative by parameter k beside the others, times C[k][k] */
   for (int j = 0; j < fit->n; j++)
@@ -49,15 +53,16 @@ enum { HELD, RISE, PARABOLA, PROFILE_COLUMNS };
 static const ZpColumn profile_column[PROFILE_COLUMNS] = {
     [HELD] = {"held", "1", "number of the parameter that is held; the others are fitted again"},
     [RISE] = {"rise", "1", "rise of the sum of squares over the variance of a residual"},
-    [PARABOLA] = {"parabola", "1", "the same of a linear model with the standard error"}};
+    [PARABOLA] = {"parabola", "1", "the same of a linear model with the standard error, which a parameter at a bound has not"}};
 
 static void put_point(const ZpFit *fit, const ZpFitPoint *best, double variance, double C[ZP_FIT_MOST][ZP_FIT_MOST],
                       const ZpFitProfilePoint *point, ZpTable *table) {
   double row[PROFILE_COLUMNS + ZP_FIT_MOST];
-  const double off = point->z[point->held] - best->z[point->held];
-  row[HELD] = point->held + 1;
+  const int held = point->held;
+  const double off = point->z[held] - best->z[held];
+  row[HELD] = held + 1;
   row[RISE] = point->rise / variance;
-  row[PARABOLA] = off * off / (variance * C[point->held][point->held]);
+  row[PARABOLA] = zp_fit_at_bound(fit, best->z, held) ? NAN : off * off / (variance * C[held][held]);
   for (int k = 0; k < fit->n; k++)
     row[PROFILE_COLUMNS + k] = point->z[k] * fit->start[k];
   zp_table_offer(table, row);
@@ -116,7 +121,7 @@ static size_t list_pairs(const ZpFit *fit, const double *z, double C[ZP_FIT_MOST
   for (int a = 0; a < fit->n; a++)
     for (int b = a + 1; b < fit->n; b++)
       if (!zp_fit_at_bound(fit, z, a) && !zp_fit_at_bound(fit, z, b))
-        pair[pairs++] = (Pair){a, b, C[a][b] / sqrt(C[a][a] * C[b][b])};
+        pair[pairs++] = (Pair){a, b, zp_fit_correlation(fit, C, a, b)};
   if (pairs > 1) qsort(pair, pairs, sizeof *pair, by_correlation);
   return pairs;
 }
@@ -136,8 +141,8 @@ static void put_edge(const ZpFit *fit, const ZpFitPoint *best, double size, doub
   for (int i = 0; i <= EDGE; i++) {
     const double along = cos(turn * i / EDGE), beside = sin(turn * i / EDGE);
     const double u = along, v = pair->correlation * along + across * beside;
-    row[REGION_COLUMNS + a] = (best->z[a] + sqrt(size * C[a][a]) * u) * fit->start[a];
-    row[REGION_COLUMNS + b] = (best->z[b] + sqrt(size * C[b][b]) * v) * fit->start[b];
+    row[REGION_COLUMNS + a] = best->z[a] * fit->start[a] + fabs(fit->start[a]) * sqrt(size * C[a][a]) * u;
+    row[REGION_COLUMNS + b] = best->z[b] * fit->start[b] + fabs(fit->start[b]) * sqrt(size * C[b][b]) * v;
     zp_table_offer(table, row);
   }
 }
