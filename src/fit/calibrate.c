@@ -106,7 +106,8 @@ static void report_keys(const ZpFit *fit, const double *z, double C[ZP_FIT_MOST]
     if (known) note_unbounded(fit, k, &interval[k], result);
     for (int j = 0; j < k; j++)
       zp_result_add_of(result, correlation[j], name, "1", C ? zp_fit_correlation(fit, C, k, j) : NAN);
-    if (zp_fit_at_bound(fit, z, k)) zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
+    if (zp_fit_at_bound(fit, z, k))
+      zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
   }
   if (C && n > 0) zp_result_add(result, "rise_95", "1", zp_fit_level(fit));
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", judgement->reduced);

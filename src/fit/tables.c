@@ -53,7 +53,8 @@ enum { HELD, RISE, PARABOLA, PROFILE_COLUMNS };
 static const ZpColumn profile_column[PROFILE_COLUMNS] = {
     [HELD] = {"held", "1", "number of the parameter that is held; the others are fitted again"},
     [RISE] = {"rise", "1", "rise of the sum of squares over the variance of a residual"},
-    [PARABOLA] = {"parabola", "1", "the same of a linear model with the standard error, which a parameter at a bound has not"}};
+    [PARABOLA] = {"parabola", "1",
+                  "the same of a linear model with the standard error, which a parameter at a bound has not"}};
 
 static void put_point(const ZpFit *fit, const ZpFitPoint *best, double variance, double C[ZP_FIT_MOST][ZP_FIT_MOST],
                       const ZpFitProfilePoint *point, ZpTable *table) {

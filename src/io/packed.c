@@ -359,7 +359,7 @@ ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **out, ZpError 
   ZpPack p;
   const bool arrays = status == ZP_OK && both < size;
   if (arrays) status = zp_pack_read(&kind_of_arrays, byte + both, size - both, &p, &why);
-  if (arrays && status == ZP_OK) 
+  if (arrays && status == ZP_OK)
     status = walk_arrays(&p, &result->shapes, &result->map, result->further, &result->checkpoint, &why);
   if (arrays && status == ZP_OK) status = zp_pack_end(&p, &why);
   if (status == ZP_OK) return ZP_OK;

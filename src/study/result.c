@@ -9,7 +9,8 @@
 #include "base/memory.h"
 #include "study/studies.h"
 
-const char *const zp_further_name[ZP_FURTHER] = {[ZP_FURTHER_LIKELIHOOD] = "likelihood", [ZP_FURTHER_REGIONS] = "regions"};
+const char *const zp_further_name[ZP_FURTHER] = {
+    [ZP_FURTHER_LIKELIHOOD] = "likelihood", [ZP_FURTHER_REGIONS] = "regions"};
 
 void zp_result_forget_further(ZpResult *result) {
   for (int k = 0; k < ZP_FURTHER; k++) {

@@ -59,12 +59,12 @@ struct ZpResult {
       sensitivity[ZP_MAX_SENSITIVITIES]; /* of all key by key, in the order of sensitivity.by, then of parts */
   bool cut;                              /* there was no room for another one */
   size_t sensitivities;
-  ZpTable *series;          /* the study's table; NULL if it has none */
+  ZpTable *series;              /* the study's table; NULL if it has none */
   ZpTable *further[ZP_FURTHER]; /* NULL where it has none */
-  ZpShapes *shapes;         /* NULL if it has none */
-  ZpFieldMap *map;          /* NULL if it has none */
-  ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
-  ZpLimits *limits;         /* the states of study limits; NULL for other studies */
+  ZpShapes *shapes;             /* NULL if it has none */
+  ZpFieldMap *map;              /* NULL if it has none */
+  ZpCheckpoint *checkpoint;     /* of a run in time, to resume from; NULL if there is none */
+  ZpLimits *limits;             /* the states of study limits; NULL for other studies */
 };
 
 #endif
