@@ -38,7 +38,7 @@ set tmargin at screen bottom + 0.18
 set bmargin at screen bottom
 set format x
 set xlabel label(x_name[k], x_unit[k])
-set ylabel rest_label offset 0.5
+set ylabel y_label offset 0.5
 if (over_sigma) { set yrange [*<-2.4:2.4<*] } else { set yrange [*:*] }
 set offsets graph beside, graph beside, graph 0.15, graph 0.15
 do for [i=1:2*over_sigma] { set arrow i from graph 0, first 1.96*(2*i - 3) to graph 1, first 1.96*(2*i - 3) nohead lw 1 dt 6 lc rgb '#777777' }

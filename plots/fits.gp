@@ -35,7 +35,7 @@ do for [k=1:panels] {
   unset label
   set lmargin at screen 0.65
   set rmargin at screen right
-  set ylabel rest_label font ',12' offset 0.5
+  set ylabel y_label font ',12' offset 0.5
   if (over_sigma) { stats data using (abs(left(0))) name 'seen' nooutput }
   if (over_sigma) { set ytics step(2*max(seen_max, 2.4), 5) } else { set ytics autofreq }
   if (over_sigma) { set yrange [*<-2.4:2.4<*] } else { set yrange [*:*] }

@@ -1,6 +1,6 @@
 # Panels, two in a row if there are several: their number is `panels`. panel.gp begins each.
 across = panels > 1 ? 2 : 1
-height = 78 + 220*((panels + across - 1)/across)
+height = 78 + 220*((panels + across - 1)/across) + (exists('foot') && remark ne '' ? 19 : 0)
 right = 0.97
 load 'style.gp'
 at(y) = 1 - y/(1.0*height) # y in pixels from above

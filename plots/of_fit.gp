@@ -22,7 +22,7 @@ _weighted = place('weighted_residual', all_columns) + 1
 _outlier = place('outlier', all_columns) + 1
 over_sigma = has('weighted_residual')
 left(c) = over_sigma ? column(_weighted) + 0*residual(0) : residual(0)*rest_factor
-rest_label = over_sigma ? 'residual / σ' : label('residual', unit(rest, si[k]))
+y_label = over_sigma ? 'residual / σ' : label('residual', unit(rest, si[k]))
 has_outliers = exists('highest_outlier') && highest_outlier == 1
 a(v) = column(_outlier) == 1 ? v : NaN
 over_time = x_name[k] eq 'time'

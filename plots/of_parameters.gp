@@ -15,3 +15,5 @@ factor_of(k) = _is_key(k) ? of('factor_', parameter(k)) : scale(_sized(k), si_of
 _shown(k) = _is_key(k) ? unit_of(parameter(k)) : unit(_sized(k), si_of(parameter(k)))
 _name(k) = _is_key(k) ? name_of(parameter(k)) : words_of(parameter(k))
 parameter_label(k) = _shown(k) eq '' ? _name(k) : label(_name(k), _shown(k)) # of a pure number its name: panels are small
+remark = ''
+do for [k=1:parameters] { if (_shown(k) eq '') { remark = 'names without a unit: pure numbers' } }

@@ -12,7 +12,7 @@ _note(p) = (_seen(p) ? 0 : (_pairs = _pairs.p.' ', all = all + 1), 1)
 set datafile separator ','
 stats '../regions.csv' using (_note(sprintf('%d-%d', column('first'), column('second')))) nooutput
 panels = all < 6 ? all : 6
-if (all > panels) remark = sprintf('%d of %d pairs, those with the largest correlation', panels, all)
+if (all > panels) foot = sprintf('%d of %d pairs, those with the largest correlation', panels, all)
 load 'grid.gp'
 _is(v) = v == v
 do for [k=1:panels] {

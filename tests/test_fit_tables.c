@@ -1,5 +1,5 @@
-/* What a fit tells about its parameters: profiles, joint regions, shares of the information, against closed forms of
- * linear models; their files. */
+/* Study calibrate tells about its parameters: profiles, joint regions, shares of the information, against closed forms
+ * of linear models; their files. */
 #include <unistd.h>
 
 #include "files_util.h"

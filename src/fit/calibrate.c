@@ -132,7 +132,7 @@ static const ZpColumn common_column[COMMON_COLUMNS] = {
                            "residual over its standard deviation, or over that of all residuals"},
     [OUTLIER] = {"outlier", "1", "1: a note names this row as an outlier"}};
 
-/* What a table of residuals shows of a fit. */
+/* A fit as the table shows it. */
 typedef struct Shown {
   const ZpFitPoint *best;
   const ZpFitJudgement *judgement;

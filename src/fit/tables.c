@@ -1,4 +1,4 @@
-/* What a fit knows about its parameters, as tables: their profiles, and the joint regions of pairs of them. */
+/* Tables of what a fit knows about its parameters: their profiles, and the joint regions of pairs of them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,28 +29,30 @@ double zp_fit_share(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_
 
 /* -- tables with a column for each parameter ---------------------------------------------------------- */
 
+enum { FIRST_COLUMNS = 3 };
+
 /* The first columns, then those of the parameters, whose values are SI. NULL if there is no memory. */
-static ZpTable *open_table(ZpFit *fit, const ZpColumn *first, size_t count, size_t rows) {
+static ZpTable *open_table(ZpFit *fit, const ZpColumn first[FIRST_COLUMNS], size_t rows) {
   char name[ZP_FIT_MOST][ZP_KEY_COLUMN_SIZE];
-  ZpColumn column[ZP_FIT_MOST];
+  ZpColumn column[FIRST_COLUMNS + ZP_FIT_MOST];
+  memcpy(column, first, FIRST_COLUMNS * sizeof *column);
   for (int k = 0; k < fit->n; k++) {
     if (k < fit->keys)
       zp_key_column(NULL, fit->key[k], name[k], sizeof name[k]);
     else
       snprintf(name[k], sizeof name[k], "%s_%s", fit->name[k], fit->unit[k]);
-    column[k] = (ZpColumn){name[k], fit->unit[k], "fitted parameter"};
+    column[FIRST_COLUMNS + k] = (ZpColumn){name[k], fit->unit[k], "fitted parameter"};
   }
-  const ZpColumnPart part[] = {{.column = first, .count = count}, {.column = column, .count = (size_t)fit->n}};
-  ZpTable *table = zp_table_of(part, 2, rows < 2 ? 2 : rows);
+  ZpTable *table = zp_table_create(column, FIRST_COLUMNS + (size_t)fit->n, rows < 2 ? 2 : rows);
   if (!table) fit->status = zp_fail_memory(fit->err);
   return table;
 }
 
 /* -- profiles ------------------------------------------------------------------------------------------ */
 
-enum { HELD, RISE, PARABOLA, PROFILE_COLUMNS };
+enum { HELD, RISE, PARABOLA };
 
-static const ZpColumn profile_column[PROFILE_COLUMNS] = {
+static const ZpColumn profile_column[FIRST_COLUMNS] = {
     [HELD] = {"held", "1", "number of the parameter that is held; the others are fitted again"},
     [RISE] = {"rise", "1", "rise of the sum of squares over the variance of a residual"},
     [PARABOLA] = {"parabola", "1",
@@ -58,14 +60,14 @@ static const ZpColumn profile_column[PROFILE_COLUMNS] = {
 
 static void put_point(const ZpFit *fit, const ZpFitPoint *best, double variance, double C[ZP_FIT_MOST][ZP_FIT_MOST],
                       const ZpFitProfilePoint *point, ZpTable *table) {
-  double row[PROFILE_COLUMNS + ZP_FIT_MOST];
+  double row[FIRST_COLUMNS + ZP_FIT_MOST];
   const int held = point->held;
   const double off = point->z[held] - best->z[held];
   row[HELD] = held + 1;
   row[RISE] = point->rise / variance;
   row[PARABOLA] = zp_fit_at_bound(fit, best->z, held) ? NAN : off * off / (variance * C[held][held]);
   for (int k = 0; k < fit->n; k++)
-    row[PROFILE_COLUMNS + k] = point->z[k] * fit->start[k];
+    row[FIRST_COLUMNS + k] = point->z[k] * fit->start[k];
   zp_table_offer(table, row);
 }
 
@@ -80,7 +82,7 @@ ZpTable *zp_fit_likelihood(ZpFit *fit, const ZpFitPoint *best, double variance, 
   if (!C || points->count == 0) return NULL;
   const size_t count = points->count + (size_t)fit->n;
   ZpFitProfilePoint *all = calloc(count, sizeof *all);
-  ZpTable *table = all ? open_table(fit, profile_column, PROFILE_COLUMNS, count) : NULL;
+  ZpTable *table = all ? open_table(fit, profile_column, count) : NULL;
   if (!all) fit->status = zp_fail_memory(fit->err);
   for (int k = 0; k < fit->n && table; k++) {
     all[k].held = k;
@@ -96,9 +98,9 @@ ZpTable *zp_fit_likelihood(ZpFit *fit, const ZpFitPoint *best, double variance, 
 
 /* -- joint regions -------------------------------------------------------------------------------------- */
 
-enum { FIRST, SECOND, CORRELATION, REGION_COLUMNS, EDGE = 72 }; /* EDGE: points of an ellipse, the first one twice */
+enum { FIRST, SECOND, CORRELATION, EDGE = 72 }; /* EDGE: points of an ellipse, the first one twice */
 
-static const ZpColumn region_column[REGION_COLUMNS] = {
+static const ZpColumn region_column[FIRST_COLUMNS] = {
     [FIRST] = {"first", "1", "number of the first parameter of the pair"},
     [SECOND] = {"second", "1", "number of the second"},
     [CORRELATION] = {"correlation", "1", "of the two"}};
@@ -133,17 +135,17 @@ static void put_edge(const ZpFit *fit, const ZpFitPoint *best, double size, doub
   static const double turn = 6.283185307179586;
   const int a = pair->first, b = pair->second;
   const double across = sqrt(fmax(0, 1 - pair->correlation * pair->correlation));
-  double row[REGION_COLUMNS + ZP_FIT_MOST];
+  double row[FIRST_COLUMNS + ZP_FIT_MOST];
   for (int k = 0; k < fit->n; k++)
-    row[REGION_COLUMNS + k] = NAN;
+    row[FIRST_COLUMNS + k] = NAN;
   row[FIRST] = a + 1;
   row[SECOND] = b + 1;
   row[CORRELATION] = pair->correlation;
   for (int i = 0; i <= EDGE; i++) {
     const double along = cos(turn * i / EDGE), beside = sin(turn * i / EDGE);
     const double u = along, v = pair->correlation * along + across * beside;
-    row[REGION_COLUMNS + a] = best->z[a] * fit->start[a] + fabs(fit->start[a]) * sqrt(size * C[a][a]) * u;
-    row[REGION_COLUMNS + b] = best->z[b] * fit->start[b] + fabs(fit->start[b]) * sqrt(size * C[b][b]) * v;
+    row[FIRST_COLUMNS + a] = best->z[a] * fit->start[a] + fabs(fit->start[a]) * sqrt(size * C[a][a]) * u;
+    row[FIRST_COLUMNS + b] = best->z[b] * fit->start[b] + fabs(fit->start[b]) * sqrt(size * C[b][b]) * v;
     zp_table_offer(table, row);
   }
 }
@@ -152,7 +154,7 @@ ZpTable *zp_fit_regions(ZpFit *fit, const ZpFitPoint *best, double variance, dou
   Pair pair[ZP_FIT_MOST * ZP_FIT_MOST];
   const size_t pairs = C && variance > 0 ? list_pairs(fit, best->z, C, pair) : 0;
   if (pairs == 0) return NULL;
-  ZpTable *table = open_table(fit, region_column, REGION_COLUMNS, pairs * (EDGE + 1));
+  ZpTable *table = open_table(fit, region_column, pairs * (EDGE + 1));
   for (size_t i = 0; i < pairs && table; i++)
     put_edge(fit, best, zp_fit_joint_level(fit) * variance, C, &pair[i], table);
   return table;

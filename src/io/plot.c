@@ -136,7 +136,7 @@ static void define_shown(const ZpPlotColumn *column, FILE *file) {
   define(file, "factor_", column->name, scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor);
 }
 
-/* What a column is called and in which unit it is shown. */
+/* Name, unit and meaning of a column. */
 static void define_column(const ZpPlotColumn *column, FILE *file) {
   define_text(file, "si_", column->name, column->unit);
   define_text(file, "help_", column->name, column->help);

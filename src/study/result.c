@@ -9,16 +9,6 @@
 #include "base/memory.h"
 #include "study/studies.h"
 
-const char *const zp_further_name[ZP_FURTHER] = {
-    [ZP_FURTHER_LIKELIHOOD] = "likelihood", [ZP_FURTHER_REGIONS] = "regions"};
-
-void zp_result_forget_further(ZpResult *result) {
-  for (int k = 0; k < ZP_FURTHER; k++) {
-    zp_table_destroy(result->further[k]);
-    result->further[k] = NULL;
-  }
-}
-
 ZpResult *zp_result_create(ZpStudy study) {
   ZpResult *result = zp_calloc(1, sizeof *result);
   if (result) result->study = study;
