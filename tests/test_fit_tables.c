@@ -10,7 +10,7 @@
 
 /* -- a line y = a + b x, with its normal equations in closed form ---------------------------------------- */
 
-enum { ROWS = 6, A = 0, B = 1, EDGE = 73 };
+enum { ROWS = 6, A = 0, B = 1, EDGE = 73, STROKES = 5 };
 
 static const double x[ROWS] = {0, 1, 2, 4, 7, 9};
 
@@ -118,7 +118,7 @@ TEST(parameter_at_a_bound_has_no_region) {
 
 /* -- fits of actuators ---------------------------------------------------------------------------------- */
 
-static const double off[] = {0.3, -1.2, 0.8, 0.5, -0.4}; /* of strokes, in standard deviations */
+static const double off[STROKES] = {0.3, -1.2, 0.8, 0.5, -0.4}; /* of strokes, in standard deviations */
 
 static double stroke(ZpActuatorDef def, double load) {
   def.load.mass = load;
@@ -135,7 +135,7 @@ static ZpActuatorDef measured(const char *keys, const char *offsets) {
   FILE *file = fopen("strokes.csv", "w");
   ck_assert_ptr_nonnull(file);
   fprintf(file, "load_g,stroke_mm,sigma_mm\n");
-  for (size_t i = 0; i < LENGTH_OF(off); i++)
+  for (size_t i = 0; i < STROKES; i++)
     fprintf(file, "%g,%.15g,0.02\n", 4.0 * (double)(i + 1),
             1e3 * stroke(plain, 4e-3 * (double)(i + 1)) + 0.02 * off[i]);
   ck_assert_int_eq(fclose(file), 0);
@@ -152,7 +152,7 @@ TEST(profile_of_a_linear_model_is_the_parabola) {
   const ZpActuatorDef def = measured("", "stroke; capacitance");
   const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
   const ZpTable *likelihood = result->further[ZP_FURTHER_LIKELIHOOD], *rows = result->series;
-  const double best = zp_result_get(result, "stroke_offset"), error = 2e-5 / sqrt(LENGTH_OF(off));
+  const double best = zp_result_get(result, "stroke_offset"), error = 2e-5 / sqrt(STROKES);
   double sum = 0;
   ck_assert(likelihood && likelihood->rows >= 6);
   for (size_t i = 0; i < likelihood->rows; i++) {
@@ -164,8 +164,8 @@ TEST(profile_of_a_linear_model_is_the_parabola) {
   }
   ck_near(sum, 4 * 3.841458820694124, 3e-10); /* both ends of both; 1e-10 measured */
   for (size_t i = 0; i < rows->rows; i++) {
-    const bool is_stroke = i < LENGTH_OF(off);
-    ck_below(fabs(zp_table_get(rows, i, "information_stroke_offset") - (is_stroke ? 1.0 / LENGTH_OF(off) : 0)), 1e-15);
+    const bool is_stroke = i < STROKES;
+    ck_below(fabs(zp_table_get(rows, i, "information_stroke_offset") - (is_stroke ? 1.0 / STROKES : 0)), 1e-15);
     ck_below(fabs(zp_table_get(rows, i, "information_capacitance_offset") - (is_stroke ? 0 : 0.5)), 1e-15);
     const double residual = is_stroke ? zp_table_get(rows, i, "residual_stroke_m") / 2e-5
                                       : zp_table_get(rows, i, "residual_capacitance_F") / 9e-12;
@@ -189,7 +189,7 @@ TEST(region_touches_the_interval) {
     ck_near(sum, 1, 2e-14); /* 7e-15 measured */
   }
   double low = INFINITY, high = -INFINITY;
-  ck_assert_uint_eq(regions->rows, 3 * EDGE);
+  ck_assert_uint_eq(regions->rows, (size_t)3 * EDGE);
   for (size_t i = 0; i < regions->rows; i++) {
     const double value = zp_table_get(regions, i, "ribbon.young_modulus_Pa");
     low = fmin(low, value), high = fmax(high, value);
@@ -222,7 +222,7 @@ TEST(outlier_is_marked) {
   write_file("capacitances.csv", "load_g,capacitance_pF,sigma_pF\n4,20,9\n4,20,9\n4,20,9\n4,20,9\n4,80,9\n");
   const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, &def);
   for (size_t i = 0; i < result->series->rows; i++)
-    ck_assert(zp_table_get(result->series, i, "outlier") == (i == LENGTH_OF(off) + 4));
+    ck_assert(zp_table_get(result->series, i, "outlier") == (i == STROKES + 4));
 }
 
 static bool is_file(const char *name) {
