@@ -25,7 +25,7 @@ set bmargin at screen bottom + 0.23
 set format x ''
 plot data using (x(0)):((measured(0) - bar(0))*y_factor):(0):(2*bar(0)*y_factor) with vectors heads size screen 0.006,90 lw 1.5 lc rgb colour(1) notitle, \
      data using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.2*ring lw 1.5 lc rgb colour(1) title title_measured, \
-     for [i=1:over_time] data using (x(0)):(line(computed(0)*y_factor)) with lines lw 2 lc rgb colour(2) title title_computed, \
+     for [r=1:records] data using (x(0)):(of_record(r, computed(0)*y_factor)) with lines lw 2 lc rgb colour(2) title (r == 1 ? title_computed : ''), \
      for [i=1:!over_time] data using (x(0)):(computed(0)*y_factor) with points pt 2 ps 0.8 lw 1.5 lc rgb colour(2) title title_computed, \
      for [i=1:has_outliers] data using (x(0)):(a(measured(0)*y_factor)) with points pt 4 ps 1.6 lw 1.5 lc rgb colour(4) title 'outlier'
 unset logscale y

@@ -29,7 +29,7 @@ do for [k=1:panels] {
   unset arrow
   plot data using (x(0)):((measured(0) - bar(0))*y_factor):(0):(2*bar(0)*y_factor) with vectors heads size screen 0.006,90 lw 1.5 lc rgb colour(1) notitle, \
        data using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.1*ring lw 1.5 lc rgb colour(1) title (k == 1 ? title_measured : ''), \
-       for [i=1:over_time] data using (x(0)):(line(computed(0)*y_factor)) with lines lw 2 lc rgb colour(2) title (k == 1 ? title_computed : ''), \
+       for [r=1:records] data using (x(0)):(of_record(r, computed(0)*y_factor)) with lines lw 2 lc rgb colour(2) title (k == 1 && r == 1 ? title_computed : ''), \
        for [i=1:!over_time] data using (x(0)):(computed(0)*y_factor) with points pt 2 ps 0.7 lw 1.5 lc rgb colour(2) title (k == 1 ? title_computed : ''), \
        for [i=1:has_outliers] data using (x(0)):(a(measured(0)*y_factor)) with points pt 4 ps 1.6 lw 1.5 lc rgb colour(4) title (k == 1 ? 'outlier' : '')
   unset label

@@ -43,8 +43,8 @@ do for [k=1:panels] {
   set ytics step(most*1.08, 5)
   set xlabel label(x_name[k], x_unit[k]) font ',12' offset 0,0.5
   set ylabel quantity[k].': share / %' font ',12' offset 0.5
-  set key at screen right + 0.015, at(above - 8) left top Left reverse samplen 2 spacing 1.1 font ',11'
-  plot for [j=1:over_time*shares] data using (x(0)):(line(share(j))) with lines lw 2 dt dash(j) lc rgb colour(j) title told_of(j), \
+  set key at screen right + 0.015, at(above - 8) left top Left reverse samplen 2 spacing 1 maxcols 1 font ',11'
+  plot for [j=1:shares] for [r=1:records] data using (x(0)):(of_record(r, share(j))) with lines lw 2 dt dash(j) lc rgb colour(j) title (r == 1 ? told_of(j) : ''), \
        for [j=1:!over_time*shares] data using (x(0) + beside(j)):(share(j)) with impulses lw 2 lc rgb colour(j) notitle, \
        for [j=1:!over_time*shares] data using (x(0) + beside(j)):(share(j)) with points pt (4 + j) ps 0.7 lc rgb colour(j) title told_of(j)
 }

@@ -17,7 +17,7 @@ _near(d, i) = root[i]/off[i] > 0.5/error ? d/error + (root[i]/off[i] - 1/error)*
 _line(d, i) = root[i] + (root[i + 1] - root[i])*(d - off[i])/(off[i + 1] - off[i])
 _between(d, i) = off[i + 1] == 0 ? _near(d, i) : off[i] == 0 ? _near(d, i + 1) : _line(d, i)
 _seek(d, i) = i >= points ? NaN : d <= off[i + 1] ? _between(d, i) : _seek(d, i + 1)
-rise_at(d) = d < off[1] || d > off[points] ? NaN : _seek(d, 1)**2
+rise_at(d) = points < 2 || d < off[1] || d > off[points] ? NaN : _seek(d, 1)**2
 do for [k=1:panels] {
   best = best_of(k)
   error = error_of(k)
@@ -25,13 +25,14 @@ do for [k=1:panels] {
   _keep(d, r) = (points = points < 300 ? points + 1 : points, off[points] = d, root[points] = d < 0 ? -r : r, 1)
   set datafile separator ','
   stats '../likelihood.csv' using (column('held') == k ? _keep(column(parameter(k)) - best, sqrt(max(column('rise'), 0))) : NaN) nooutput
-  low = _is(low_of(k)) ? low_of(k) - best : off[1]
-  high = _is(high_of(k)) ? high_of(k) - best : off[points]
+  reach = _is(error) ? 2.5*error : 0.1*abs(best) # on a side without points
+  least = min(off[1] < 0 ? off[1] : -reach, _is(low_of(k)) ? low_of(k) - best : 0)
+  most = max(off[points] > 0 ? off[points] : reach, _is(high_of(k)) ? high_of(k) - best : 0)
   load 'panel.gp'
   f = factor_of(k)
-  set xrange [(best + 1.25*min(low, off[1]))*f:(best + 1.25*max(high, off[points]))*f]
+  set xrange [(best + 1.25*least)*f:(best + 1.25*most)*f]
   set yrange [0:1.6*rise_95]
-  set xtics step(1.25*(max(high, off[points]) - min(low, off[1]))*f, tics)
+  set xtics step(1.25*(most - least)*f, tics)
   set ytics step(1.6*rise_95, 5)
   set xlabel parameter_label(k) font ',12' offset 0,0.5
   set ylabel 'rise of the squares / σ²' font ',12' offset 0.5

@@ -16,8 +16,7 @@ both = max(size(measured_min_y, measured_max_y), size(computed_min_y, computed_m
 y_factor = scale(both, si[k])
 rest = size(residual_min_y, residual_max_y)
 rest_factor = scale(rest, si[k])
-# Residuals over their standard deviation, if that is known, and what 95 of 100 are within; a(v): v of an outlier; line(v): v,
-# where it does not begin another record
+# Residuals over their standard deviation, if that is known, and what 95 of 100 are within; a(v): v of an outlier
 _weighted = place('weighted_residual', all_columns) + 1
 _outlier = place('outlier', all_columns) + 1
 over_sigma = has('weighted_residual')
@@ -26,7 +25,12 @@ y_label = over_sigma ? 'residual / σ' : label('residual', unit(rest, si[k]))
 has_outliers = exists('highest_outlier') && highest_outlier == 1
 a(v) = column(_outlier) == 1 ? v : NaN
 over_time = x_name[k] eq 'time'
-before = -1e300
-line(v) = (_back = x(0) < before, before = x(0), _back ? NaN : v)
+# records over time, each a line of its own: their number, and v in rows of record r; each pass over the data counts on
+_before = 1e300
+_n = 0
+_record(c) = residual(0) == residual(0) ? (_n = x(0) < _before ? _n + 1 : _n, _before = x(0), _n) : 0
+stats data using (_record(0)) nooutput
+records = over_time ? _n : 0
+of_record(r, v) = (_record(0) - 1) % records == r - 1 ? v : NaN
 ring = measured_records > 60 ? 0.5 : 1
 title_computed = fitted ? 'fitted' : 'computed'
