@@ -72,6 +72,7 @@ static const Entry files[] = {
     {"summary.json", "outcome, message and the study's numbers; written after all other numbers"},
     {"scenario.yaml", "all keys and their values; running it again gives the same result"},
     {"table.csv", "the time series or branch, or one row per case of a sweep"},
+    {"likelihood.csv, regions.csv", "calibrate: profiles of the fitted keys, joint regions of pairs"},
     {"results.h5", "the same and the shapes, with units"},
     {"journal.sqlite", "of a sweep: a row per finished case, for `--resume`"},
     {"shapes.pvd, shapes/, field.vts", "for ParaView"},

@@ -761,12 +761,34 @@ TEST(error_bars_of_a_fit) {
   put_file("bench.csv", "load_g,stroke_mm,sigma_mm\n4,6,0.5\n8,10,0.5\n20,20,2\n");
   snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
   write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
-  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m,sigma_m\n"));
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m,sigma_m,weighted_residual,outlier,"
+                                     "information_ribbon.young_modulus\n"));
   ck_assert(file_says("f/plots/fit.svg", ">measured ± σ<"));
   put_file("bench.csv", "load_g,stroke_mm\n4,6\n8,10\n20,20\n");
   write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
-  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m\n"));
-  ck_assert(file_says("f/plots/fit.svg", ">measured<"));
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m,weighted_residual,outlier,"));
+  ck_assert(file_says("f/plots/fit.svg", ">measured<") && file_says("f/plots/fit.svg", ">residual / σ<"));
+}
+
+/* A fit of two keys has pictures of its profiles, of its region and of what each row tells; a fit over it that has one
+ * key has no region, and one that cannot be told has none of them. */
+TEST(pictures_of_what_a_fit_knows) {
+  char file[1100];
+  put_file("bench.csv", "load_g,stroke_mm\n4,6.5\n8,10.6\n20,20.5\n40,30\n");
+  snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
+  write_rest("f", "calibrate",
+             (const char *const[]){file, "calibrate.fit=ribbon.young_modulus, load.share", "calibrate.starts=1", NULL});
+  check_files("f", (const char *const[]){"likelihood.csv", "regions.csv", "plots/fit.svg", "plots/likelihood.svg",
+                                         "plots/regions.svg", "plots/information.svg", NULL});
+  ck_assert(file_says("f/plots/regions.svg", ">ribbon.young_modulus / GPa<"));
+  ck_assert(file_says("f/plots/information.svg", ">ribbon.young_modulus: 100 %<"));
+  ck_assert(file_says("f/plots/likelihood.svg", ">rise of the squares / σ²<"));
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  check_files("f", (const char *const[]){"likelihood.csv", "plots/likelihood.svg", "plots/information.svg", NULL});
+  ck_assert(!exists("f/regions.csv") && !exists("f/plots/regions.svg"));
+  put_file("bench.csv", "load_g,stroke_mm\n4,6.5\n");
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  ck_assert(!exists("f/likelihood.csv") && !exists("f/plots/likelihood.svg") && !exists("f/plots/information.svg"));
 }
 
 /* The SVG holds the picture of the field itself; field.vts has the bytes that its head promises. */

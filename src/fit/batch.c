@@ -35,8 +35,9 @@ bool zp_batch_open(const ZpBatch *batch) {
   return batch->done < batch->count && !batch->interrupted;
 }
 
-/* A sweep reports neither shapes nor checkpoints: keep only the series in memory. */
+/* A sweep reports neither shapes nor further tables nor checkpoints: keep only the series in memory. */
 static void keep_the_series(ZpResult *result) {
+  zp_result_forget_further(result);
   zp_shapes_destroy(result->shapes);
   result->shapes = NULL;
   zp_field_map_destroy(result->map);

@@ -62,7 +62,7 @@ static const char *const correlation[ZP_FIT_MOST - 1] = {"#_correlation_1",  "#_
                                                          "#_correlation_7",  "#_correlation_8",  "#_correlation_9",
                                                          "#_correlation_10", "#_correlation_11", "#_correlation_12"};
 
-static bool at_bound(const ZpFit *fit, const double *z, int k) {
+bool zp_fit_at_bound(const ZpFit *fit, const double *z, int k) {
   static const double near = 1e-6;
   double low = fit->lower[k], high = fit->upper[k];
   return z[k] <= low + near * fabs(low) || z[k] >= high - near * fabs(high);
@@ -71,7 +71,7 @@ static bool at_bound(const ZpFit *fit, const double *z, int k) {
 /* The name of the first parameter that lies at its bound, or NULL. */
 static const char *name_at_bound(const ZpFit *fit, const double *z) {
   for (int k = 0; k < fit->n; k++)
-    if (at_bound(fit, z, k)) return fit->name[k];
+    if (zp_fit_at_bound(fit, z, k)) return fit->name[k];
   return NULL;
 }
 
@@ -86,16 +86,16 @@ static void note_unbounded(const ZpFit *fit, int k, const ZpFitInterval *interva
     zp_result_note(result, "%s has no interval: within the bounds the data do not limit it", fit->name[k]);
 }
 
-/* The numbers of the summary about the parameters. */
-static void report_keys(const ZpFit *fit, const double *z, const double *J, const ZpFitJudgement *judgement,
-                        const ZpFitMissing *missing, const ZpFitInterval *interval, ZpResult *result) {
-  double C[ZP_FIT_MOST][ZP_FIT_MOST];
-  bool told_apart = J && zp_fit_covariance(fit, J, NULL, 0, 1e-10, C);
+/* The numbers of the summary about the parameters. C: their covariance in units of z; NULL: the data cannot distinguish
+ * them. */
+static void report_keys(const ZpFit *fit, const double *z, double C[ZP_FIT_MOST][ZP_FIT_MOST],
+                        const ZpFitJudgement *judgement, const ZpFitMissing *missing, const ZpFitInterval *interval,
+                        ZpResult *result) {
   size_t n = (size_t)fit->n;
   const double variance = judgement->variance;
   for (int k = 0; k < fit->n; k++) {
     const char *name = fit->name[k], *unit = fit->unit[k];
-    bool known = told_apart && !at_bound(fit, z, k);
+    bool known = C && !zp_fit_at_bound(fit, z, k);
     zp_result_add_of(result, "#", name, unit, z[k] * fit->start[k]);
     zp_result_add_of(result, "#_standard_error", name, unit,
                      known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
@@ -105,16 +105,18 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, cons
     zp_result_add_of(result, "#_interval_95_high", name, unit, known ? high * fit->start[k] : NAN);
     if (known) note_unbounded(fit, k, &interval[k], result);
     for (int j = 0; j < k; j++)
-      zp_result_add_of(result, correlation[j], name, "1", told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
-    if (at_bound(fit, z, k)) zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
+      zp_result_add_of(result, correlation[j], name, "1", C ? zp_fit_correlation(fit, C, k, j) : NAN);
+    if (zp_fit_at_bound(fit, z, k))
+      zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
   }
+  if (C && n > 0) zp_result_add(result, "rise_95", "1", zp_fit_level(fit));
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", judgement->reduced);
   zp_result_add(result, "runs_test", "1", judgement->runs);
   zp_result_add(result, "law_test", "1", missing->chance);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
   if (*fit->layout) zp_result_note(result, "%s", fit->layout);
   if (*fit->idle) zp_result_note(result, "columns that are not used: %s", fit->idle);
-  if (!told_apart && n > 0)
+  if (!C && n > 0)
     zp_result_note(
         result,
         "the data cannot distinguish the fitted keys, so these have no standard errors; fit fewer keys or add data");
@@ -122,14 +124,31 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, cons
 
 /* -- the table: what was set, then what was measured and computed, kind by kind ------------------------------------ */
 
-/* The columns of the table: one for each quantity that was set and those of each kind; NAN in rows of another one. */
+/* Columns of all kinds. */
+enum { WEIGHTED_RESIDUAL, OUTLIER, COMMON_COLUMNS };
+
+static const ZpColumn common_column[COMMON_COLUMNS] = {
+    [WEIGHTED_RESIDUAL] = {"weighted_residual", "1",
+                           "residual over its standard deviation, or over that of all residuals"},
+    [OUTLIER] = {"outlier", "1", "1: a note names this row as an outlier"}};
+
+/* A fit as the table shows it. */
+typedef struct Shown {
+  const ZpFitPoint *best;
+  const ZpFitJudgement *judgement;
+  double (*C)[ZP_FIT_MOST]; /* as report_keys */
+} Shown;
+
+/* The columns of the table: one for each quantity that was set and those of each kind, NAN in rows of another one; then
+ * those of all kinds, and one for each parameter. */
 typedef struct Columns {
   size_t count, x_count, width; /* width: columns of one kind */
   bool alone;                   /* there is one kind */
   ZpColumn *column;
   int *x_key; /* [x_count] */
-  char (*x_name)[ZP_KEY_COLUMN_SIZE];
+  char (*x_name)[ZP_KEY_COLUMN_SIZE], share_name[ZP_FIT_MOST][ZP_KEY_COLUMN_SIZE];
   size_t kind[ZP_FIT_KINDS]; /* first column of a kind; 0: none yet */
+  size_t common, shares;     /* the first ones of these */
 } Columns;
 
 static size_t place_of_x(const Columns *columns, int key) {
@@ -155,9 +174,19 @@ static void add_kind(Columns *columns, ZpFitKind kind) {
     columns->column[columns->count++] = columns->alone ? of_kind[kind].alone[i] : of_kind[kind].several[i];
 }
 
+static void add_shares(const ZpFit *fit, Columns *columns) {
+  columns->shares = columns->count;
+  for (int k = 0; k < fit->n; k++) {
+    char *name = columns->share_name[k];
+    snprintf(name, sizeof columns->share_name[k], "information_%s", fit->name[k]);
+    columns->column[columns->count++] = (ZpColumn){name, "1", "share of what all rows tell about this parameter"};
+  }
+}
+
 static bool open_columns(const ZpFit *fit, Columns *columns) {
   *columns = (Columns){.width = fit->sigma ? COLUMNS_WEIGHTED : COLUMNS_PLAIN, .alone = zp_fit_kinds(fit) == 1};
-  columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_WEIGHTED, sizeof *columns->column);
+  columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_WEIGHTED + COMMON_COLUMNS + ZP_FIT_MOST,
+                           sizeof *columns->column);
   columns->x_key = calloc(fit->sets, sizeof *columns->x_key);
   columns->x_name = calloc(fit->sets, sizeof *columns->x_name);
   if (!columns->column || !columns->x_key || !columns->x_name) return false;
@@ -165,12 +194,23 @@ static bool open_columns(const ZpFit *fit, Columns *columns) {
     add_x(columns, fit->set[i].x_key);
   for (size_t i = 0; i < fit->sets; i++)
     add_kind(columns, fit->set[i].kind);
+  columns->common = columns->count;
+  for (int i = 0; i < COMMON_COLUMNS; i++)
+    columns->column[columns->count++] = common_column[i];
+  add_shares(fit, columns);
   return true;
 }
 
-static void fill_row(const ZpFit *fit, const Columns *columns, size_t row, const double *fitted, double *value) {
+static bool is_outlier(const ZpFitJudgement *judgement, size_t row) {
+  for (size_t i = 0; i < judgement->outliers; i++)
+    if (judgement->outlier[i] == row) return true;
+  return false;
+}
+
+static void fill_row(const ZpFit *fit, const Columns *columns, size_t row, const Shown *shown, double *value) {
+  const double *fitted = shown->best->fitted;
   const ZpFitSet *of = zp_fit_set_of(fit, row);
-  double *own = value + columns->kind[of->kind];
+  double *own = value + columns->kind[of->kind], *common = value + columns->common;
   for (size_t c = 0; c < columns->count; c++)
     value[c] = NAN;
   value[place_of_x(columns, of->x_key)] = fit->x[row];
@@ -178,14 +218,19 @@ static void fill_row(const ZpFit *fit, const Columns *columns, size_t row, const
   own[1] = fitted[row];
   own[2] = fitted[row] - fit->y[row];
   if (fit->sigma) own[COLUMNS_PLAIN] = fit->sigma[row];
+  const double deviation = sqrt(shown->judgement->variance);
+  common[WEIGHTED_RESIDUAL] = deviation > 0 ? zp_fit_residual(fit, fitted, row) / deviation : NAN;
+  common[OUTLIER] = is_outlier(shown->judgement, row);
+  for (int k = 0; k < fit->n && shown->C; k++)
+    value[columns->shares + (size_t)k] = zp_fit_share(fit, shown->best->J, shown->C, row, k);
 }
 
-static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
+static bool fill_table(const ZpFit *fit, const Shown *shown, ZpResult *result) {
   Columns columns;
   double *value = open_columns(fit, &columns) ? calloc(columns.count, sizeof *value) : NULL;
   if (value) result->series = zp_table_create(columns.column, columns.count, fit->rows < 2 ? 2 : fit->rows);
   for (size_t row = 0; value && result->series && row < fit->rows; row++) {
-    fill_row(fit, &columns, row, fitted, value);
+    fill_row(fit, &columns, row, shown, value);
     zp_table_offer(result->series, value);
   }
   free(value);
@@ -348,12 +393,15 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   ZpFitJudgement judgement = zp_fit_judge(fit, best);
   ZpFitMissing missing = {NULL, NULL, 0, NAN};
   ZpFitInterval interval[ZP_FIT_MOST];
+  ZpFitProfiles profiles = {0};
   for (int k = 0; k < ZP_FIT_MOST; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1};
-  if (good) zp_fit_intervals(fit, judgement.variance, best, interval);
+  if (good) zp_fit_intervals(fit, judgement.variance, best, interval, &profiles);
   if (good) judgement = zp_fit_judge(fit, best);
   if (good) missing = zp_fit_find_missing(fit, best);
   if (fit->status != ZP_OK) return fit->status;
+  double covariance[ZP_FIT_MOST][ZP_FIT_MOST], (*C)[ZP_FIT_MOST] = NULL;
+  if (good && zp_fit_covariance(fit, best->J, NULL, 0, 1e-10, covariance)) C = covariance;
   const double *z = best->z, *fitted = best->fitted, square = best->square;
   const bool doubtful = !zp_fit_is_noise(&judgement) || zp_fit_is_missing(&missing) ||
                         is_ambiguous(fit, &starts, interval) || !best->ended;
@@ -367,7 +415,7 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
-  report_keys(fit, z, good ? best->J : NULL, &judgement, &missing, interval, result);
+  report_keys(fit, z, C, &judgement, &missing, interval, result);
   report_doubts(fit, best, &judgement, &starts, interval, &missing, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   const ZpFitSet *times = last_set(fit, ZP_FIT_TIME);
@@ -375,7 +423,11 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   report_residuals(fit, fitted, result);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
-  return fill_table(fit, fitted, result) && !result->incomplete ? ZP_OK : zp_fail_memory(err);
+  result->further[ZP_FURTHER_LIKELIHOOD] = zp_fit_likelihood(fit, best, judgement.variance, C, &profiles);
+  result->further[ZP_FURTHER_REGIONS] = zp_fit_regions(fit, best, judgement.variance, C);
+  if (fit->status != ZP_OK) return fit->status;
+  const Shown shown = {best, &judgement, C};
+  return fill_table(fit, &shown, result) && !result->incomplete ? ZP_OK : zp_fail_memory(err);
 }
 
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {

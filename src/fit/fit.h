@@ -245,8 +245,44 @@ typedef struct ZpFitInterval {
   int trades;       /* the parameter against which an unbounded one trades; -1: none */
 } ZpFitInterval;
 
-/* Intervals of all parameters [n]. Where a point is found that fits better, `best` goes there first. */
-void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval);
+/* A point of a profile: parameter `held` is held there, the others fit best. */
+typedef struct ZpFitProfilePoint {
+  int held;
+  double rise;           /* of the sum of squares, from its minimum */
+  double z[ZP_FIT_MOST]; /* of all parameters */
+} ZpFitProfilePoint;
+
+enum { ZP_FIT_PROFILES = 22 * ZP_FIT_MOST };
+
+/* Points of the profiles of all parameters, in the order in which they were found. */
+typedef struct ZpFitProfiles {
+  size_t count;
+  ZpFitProfilePoint point[ZP_FIT_PROFILES];
+} ZpFitProfiles;
+
+/* Intervals of all parameters [n], and the points on the way to them. Where a point is found that fits better, `best`
+ * goes there first. */
+void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval, ZpFitProfiles *points);
+
+/* The rise of the sum of squares, in multiples of the variance of a residual, at the ends of intervals, and on the edge
+ * of the joint region of two parameters, (12.4) and (12.11). */
+double zp_fit_level(const ZpFit *fit);
+double zp_fit_joint_level(const ZpFit *fit);
+
+/* Correlation of the estimates of two parameters; C: the covariance in units of z. */
+double zp_fit_correlation(const ZpFit *fit, double C[ZP_FIT_MOST][ZP_FIT_MOST], int a, int b);
+
+/* Is parameter k at one of its bounds? */
+bool zp_fit_at_bound(const ZpFit *fit, const double *z, int k);
+
+/* The share of what all rows tell about parameter k that this row tells, (12.12). C as above. */
+double zp_fit_share(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST], size_t row, int k);
+
+/* Tables of the profiles and of the joint regions at the best point; NULL if there is no memory, as `fit` then says, or
+ * nothing to show. C as above, NULL: the data cannot distinguish the parameters. */
+ZpTable *zp_fit_likelihood(ZpFit *fit, const ZpFitPoint *best, double variance, double C[ZP_FIT_MOST][ZP_FIT_MOST],
+                           const ZpFitProfiles *points);
+ZpTable *zp_fit_regions(ZpFit *fit, const ZpFitPoint *best, double variance, double C[ZP_FIT_MOST][ZP_FIT_MOST]);
 
 /* Inverse of J^T J, whose diagonal is first multiplied by 1 + ridge, in units of z => C, by Cholesky. A key that
  * `stays` (NULL: none) has no covariance with another. False if a pivot is at most `least` times its diagonal: the data

@@ -15,6 +15,7 @@ typedef struct Profile {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   ZpFitPoint at; /* the point of the profile, with arrays of its own */
   bool better;   /* it fits better than the best point */
+  ZpFitProfiles *points;
 } Profile;
 
 static void put(const ZpFit *fit, const double *step, double *z) {
@@ -40,6 +41,14 @@ static bool correct(Profile *p, const bool *held) {
   return false;
 }
 
+static void record(Profile *p, int which, double rise) {
+  ZpFitProfiles *to = p->points;
+  if (!p->at.good || to->count == ZP_FIT_PROFILES) return;
+  ZpFitProfilePoint *point = &to->point[to->count++];
+  *point = (ZpFitProfilePoint){.held = which, .rise = rise};
+  memcpy(point->z, p->at.z, sizeof point->z);
+}
+
 /* Rise of the sum of squares where parameter `held` is at z and the others fit best. */
 static double rise_at(Profile *p, int which, double z) {
   enum { MOST = 12 };
@@ -58,6 +67,7 @@ static double rise_at(Profile *p, int which, double z) {
   }
   const double rise = p->at.square - p->best->square;
   p->better |= p->at.good && rise < -0.01 * p->rise;
+  record(p, which, rise);
   return rise;
 }
 
@@ -99,6 +109,7 @@ static int partner_of(const Profile *p, int which) {
 static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1};
+  p->points->count = 0;
   if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
   for (int k = 0; k < p->fit->n && !p->better; k++) {
     interval[k] = (ZpFitInterval){end_at(p, k, -1), p->better ? NAN : end_at(p, k, 1), -1};
@@ -115,11 +126,16 @@ static void go_to_better(Profile *p) {
   p->better = false;
 }
 
-void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval) {
-  enum { MOST = 4 };
+double zp_fit_level(const ZpFit *fit) {
   static const double normal = 1.959963984540054;
-  const double freedom = (double)fit->rows - fit->n, t = fit->sigma ? normal : zp_fit_student(freedom);
-  Profile p = {.fit = fit, .best = best, .rise = t * t * variance};
+  const double t = fit->sigma ? normal : zp_fit_student((double)fit->rows - fit->n);
+  return t * t;
+}
+
+void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval, ZpFitProfiles *points) {
+  enum { MOST = 4 };
+  Profile p = {.fit = fit, .best = best, .rise = zp_fit_level(fit) * variance, .points = points};
+  points->count = 0;
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
   for (int k = 0; k < MOST && !find_all(&p, interval); k++)
     go_to_better(&p);

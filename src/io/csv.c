@@ -1,4 +1,4 @@
-/* table.csv: the time series of one run, or one row per run of a sweep.
+/* table.csv: the time series of one run, or one row per run of a sweep; beside it the further tables of one run.
  *
  * No field needs quotes: names and outcomes have no commas. A value that does not exist is an empty
  * cell. */
@@ -39,12 +39,24 @@ static ZpStatus write_table(FILE *file, const ZpReport *report, const ZpTable *s
   return open ? ZP_OK : zp_fail_memory(err);
 }
 
-ZpStatus zp_csv_write(const ZpReport *report, ZpError *err) {
-  const ZpResult *single = zp_report_single(report);
-  bool sweep = zp_report_is_sweep(report);
-  if (!sweep && (!single || !single->series)) return zp_remove_file(report->directory, "table.csv", err);
+/* `has`: there is such a file, of `series` or, if that is NULL, of all runs. */
+static ZpStatus replace(const ZpReport *report, const char *name, bool has, const ZpTable *series, ZpError *err) {
   ZpAtomic out;
-  ZpStatus status = zp_atomic_open(&out, report->directory, "table.csv", err);
-  if (status != ZP_OK) return status;
-  return zp_atomic_finish(&out, write_table(out.file, report, sweep ? NULL : single->series, err), err);
+  if (!has) return zp_remove_file(report->directory, name, err);
+  ZpStatus status = zp_atomic_open(&out, report->directory, name, err);
+  return status == ZP_OK ? zp_atomic_finish(&out, write_table(out.file, report, series, err), err) : status;
+}
+
+ZpStatus zp_csv_write(const ZpReport *report, ZpError *err) {
+  const bool sweep = zp_report_is_sweep(report);
+  const ZpResult *single = sweep ? NULL : zp_report_single(report);
+  const ZpTable *series = single ? single->series : NULL;
+  ZpStatus status = replace(report, "table.csv", sweep || series, series, err);
+  for (int k = 0; k < ZP_FURTHER && status == ZP_OK; k++) {
+    const ZpTable *further = single ? single->further[k] : NULL;
+    char name[32];
+    snprintf(name, sizeof name, "%s.csv", zp_further_name[k]);
+    status = replace(report, name, further != NULL, further, err);
+  }
+  return status;
 }

@@ -4,6 +4,7 @@
  *   one run:  /series/COLUMN         one dataset per column of the table
  *             /shapes/...            time, voltage, zipped [frame]; x, y [frame][ribbon][node];
  *                                    gap, line_force [frame][node]
+ *             /likelihood/COLUMN, /regions/COLUMN   likewise of the further tables of a fit
  *             /field/...             x, y, potential [i][j] of nodes; strength, permittivity of the cells between
  *             /summary/SCALAR        what does not follow from wall time
  *   a sweep:  /table/COLUMN          as table.csv, one value per run
@@ -110,9 +111,9 @@ static double clean(double value) {
   return isnan(value) ? (double)NAN : value;
 }
 
-static void put_series(Store *store, hid_t parent, const ZpTable *table) {
+static void put_rows(Store *store, hid_t parent, const char *name, const ZpTable *table) {
   if (!table) return;
-  hid_t group = open_group(store, parent, "series");
+  hid_t group = open_group(store, parent, name);
   hsize_t rows = table->rows;
   double *value = numbers(store, table->rows);
   for (size_t i = 0; i < table->columns && !store->bad; i++) {
@@ -203,7 +204,9 @@ static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
 }
 
 static void put_run(Store *store, hid_t parent, const ZpResult *result) {
-  put_series(store, parent, result->series);
+  put_rows(store, parent, "series", result->series);
+  for (int k = 0; k < ZP_FURTHER; k++)
+    put_rows(store, parent, zp_further_name[k], result->further[k]);
   put_shapes(store, parent, result->shapes, result->study);
   put_map(store, parent, result->map);
   put_summary(store, parent, result);

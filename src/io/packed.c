@@ -27,6 +27,13 @@ static void add_texts(ZpPack *p, const char *a, const char *b, const char *c) {
   add_text(p, c);
 }
 
+static void add_columns(ZpPack *p, const char *name, const ZpTable *table) {
+  zp_pack_open(p, name, ZP_TEXT);
+  for (size_t i = 0; table && i < table->columns; i++)
+    add_texts(p, table->column[i].name, table->column[i].unit, table->column[i].help);
+  zp_pack_close(p);
+}
+
 static void write_names(ZpPack *p, const ZpResult *r) {
   zp_pack_open(p, "study", ZP_TEXT);
   add_text(p, zp_study_name(r->study));
@@ -39,10 +46,7 @@ static void write_names(ZpPack *p, const ZpResult *r) {
   for (const ZpSensitivity *s = r->sensitivity; s < r->sensitivity + r->sensitivities; s++)
     add_texts(p, s->output, ZP_KEY_NAME(s->key), "");
   zp_pack_close(p);
-  zp_pack_open(p, "columns", ZP_TEXT);
-  for (size_t i = 0; r->series && i < r->series->columns; i++)
-    add_texts(p, r->series->column[i].name, r->series->column[i].unit, r->series->column[i].help);
-  zp_pack_close(p);
+  add_columns(p, "columns", r->series);
 }
 
 /* `sum`: the checksum of the names to which the numbers belong. */
@@ -149,15 +153,15 @@ static double next_number(Numbers *numbers) {
 }
 
 /* The next three texts; false behind the last ones. */
-static bool next_texts(ZpTexts *texts, Numbers *numbers, const char *text[3]) {
+static bool next_texts(ZpTexts *texts, bool *bad, const char *text[3]) {
   for (int k = 0; k < 3; k++)
     text[k] = next_text(texts);
-  numbers->bad = numbers->bad || (text[0] && !text[2]);
-  return text[2] && !numbers->bad;
+  *bad = *bad || (text[0] && !text[2]);
+  return text[2] && !*bad;
 }
 
 static void read_scalars(ZpTexts texts, Numbers *numbers, ZpResult *result) {
-  for (const char *text[3]; next_texts(&texts, numbers, text);) {
+  for (const char *text[3]; next_texts(&texts, &numbers->bad, text);) {
     const double value = next_number(numbers);
     if (*text[2])
       zp_result_add_timing(result, text[0], text[1], value);
@@ -167,7 +171,7 @@ static void read_scalars(ZpTexts texts, Numbers *numbers, ZpResult *result) {
 }
 
 static void read_derivatives(ZpTexts texts, Numbers *numbers, ZpResult *result) {
-  for (const char *text[3]; next_texts(&texts, numbers, text);) {
+  for (const char *text[3]; next_texts(&texts, &numbers->bad, text);) {
     const int key = zp_key_find(text[1]);
     const double value = next_number(numbers);
     numbers->bad = numbers->bad || key < 0;
@@ -175,22 +179,29 @@ static void read_derivatives(ZpTexts texts, Numbers *numbers, ZpResult *result) 
   }
 }
 
+/* A table with these columns and so many values, which it does not have yet. NULL if they do not fit, `bad`, or there
+ * is no memory. */
+static ZpTable *open_table(ZpTexts texts, size_t values, bool *bad) {
+  size_t columns = 0;
+  ZpColumn *column = calloc(texts.size + 1, sizeof *column);
+  if (!column) return NULL;
+  for (const char *text[3]; next_texts(&texts, bad, text);)
+    column[columns++] = (ZpColumn){text[0], text[1], text[2]};
+  if (columns == 0) *bad = true;
+  const size_t rows = *bad ? 0 : values / columns;
+  *bad = *bad || values != rows * columns;
+  ZpTable *table = *bad ? NULL : zp_table_create(column, columns, rows < 2 ? 2 : rows);
+  free(column);
+  if (table) table->rows = table->offered = rows;
+  return table;
+}
+
 /* The rest of the numbers are rows. False if there is no memory. */
 static bool read_series(ZpTexts texts, Numbers *numbers, ZpResult *result) {
-  size_t columns = 0;
-  ZpColumn *column = texts.size ? calloc(texts.size, sizeof *column) : NULL;
-  if (texts.size == 0 || !column) return texts.size == 0;
-  for (const char *text[3]; next_texts(&texts, numbers, text);)
-    column[columns++] = (ZpColumn){text[0], text[1], text[2]};
-  if (columns == 0) numbers->bad = true;
-  const size_t rows = numbers->bad ? 0 : numbers->left / columns;
-  numbers->bad = numbers->bad || numbers->left != rows * columns;
-  ZpTable *table = numbers->bad ? NULL : zp_table_create(column, columns, rows < 2 ? 2 : rows);
-  free(column);
-  result->series = table;
+  if (texts.size == 0) return true;
+  ZpTable *table = result->series = open_table(texts, numbers->left, &numbers->bad);
   if (!table) return numbers->bad;
-  table->rows = table->offered = rows;
-  for (size_t i = 0; i < rows * columns; i++)
+  for (size_t i = 0; i < table->rows * table->columns; i++)
     table->value[i] = next_number(numbers);
   return true;
 }
@@ -286,8 +297,37 @@ static ZpStatus walk_checkpoint(ZpPack *p, ZpCheckpoint **out, ZpError *err) {
   return size > 0 ? zp_checkpoint_from(byte, size, out, err) : ZP_OK;
 }
 
-static ZpStatus walk_arrays(ZpPack *p, ZpShapes **shapes, ZpFieldMap **map, ZpCheckpoint **checkpoint, ZpError *err) {
-  if (walk_shapes(p, shapes) != ZP_OK || walk_map(p, map) != ZP_OK) return zp_fail_memory(err);
+static ZpStatus walk_table(ZpPack *p, const char *columns, const char *values, ZpTable **out) {
+  ZpTable *t = *out;
+  size_t count = t ? t->rows * t->columns : 0;
+  bool bad = false;
+  if (!p->in) {
+    add_columns(p, columns, t);
+    zp_pack_field(p, values, ZP_REAL, t ? t->value : NULL, count);
+    return ZP_OK;
+  }
+  const ZpTexts texts = find_texts(p, columns);
+  const unsigned char *byte = zp_pack_find(p, values, ZP_REAL, &count);
+  if (p->lacks || texts.size == 0) return ZP_OK;
+  t = *out = open_table(texts, count, &bad);
+  if (bad) p->lacks = values;
+  for (size_t i = 0; t && i < count; i++)
+    t->value[i] = zp_pack_real(byte, i);
+  return t || bad ? ZP_OK : ZP_MACHINE;
+}
+
+static ZpStatus walk_further(ZpPack *p, ZpTable *further[ZP_FURTHER]) {
+  static const char *const field[ZP_FURTHER][2] = {[ZP_FURTHER_LIKELIHOOD] = {"likelihood.columns", "likelihood"},
+                                                   [ZP_FURTHER_REGIONS] = {"regions.columns", "regions"}};
+  for (int k = 0; k < ZP_FURTHER; k++)
+    if (walk_table(p, field[k][0], field[k][1], &further[k]) != ZP_OK) return ZP_MACHINE;
+  return ZP_OK;
+}
+
+static ZpStatus walk_arrays(ZpPack *p, ZpShapes **shapes, ZpFieldMap **map, ZpTable *further[ZP_FURTHER],
+                            ZpCheckpoint **checkpoint, ZpError *err) {
+  if (walk_shapes(p, shapes) != ZP_OK || walk_map(p, map) != ZP_OK || walk_further(p, further) != ZP_OK)
+    return zp_fail_memory(err);
   return walk_checkpoint(p, checkpoint, err);
 }
 
@@ -299,7 +339,9 @@ size_t zp_result_save(const ZpResult *result, void *bytes) {
   ZpShapes *shapes = result->shapes;
   ZpFieldMap *map = result->map;
   ZpCheckpoint *checkpoint = result->checkpoint;
-  walk_arrays(&p, &shapes, &map, &checkpoint, NULL);
+  ZpTable *further[ZP_FURTHER];
+  memcpy(further, result->further, sizeof further);
+  walk_arrays(&p, &shapes, &map, further, &checkpoint, NULL);
   if (byte) zp_pack_seal(&p);
   return used + p.used;
 }
@@ -317,7 +359,8 @@ ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **out, ZpError 
   ZpPack p;
   const bool arrays = status == ZP_OK && both < size;
   if (arrays) status = zp_pack_read(&kind_of_arrays, byte + both, size - both, &p, &why);
-  if (arrays && status == ZP_OK) status = walk_arrays(&p, &result->shapes, &result->map, &result->checkpoint, &why);
+  if (arrays && status == ZP_OK)
+    status = walk_arrays(&p, &result->shapes, &result->map, result->further, &result->checkpoint, &why);
   if (arrays && status == ZP_OK) status = zp_pack_end(&p, &why);
   if (status == ZP_OK) return ZP_OK;
   zp_result_destroy(result);

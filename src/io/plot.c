@@ -136,6 +136,31 @@ static void define_shown(const ZpPlotColumn *column, FILE *file) {
   define(file, "factor_", column->name, scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor);
 }
 
+/* Name, unit and meaning of a column. */
+static void define_column(const ZpPlotColumn *column, FILE *file) {
+  define_text(file, "si_", column->name, column->unit);
+  define_text(file, "help_", column->name, column->help);
+  if (column->key >= 0) define_shown(column, file);
+}
+
+/* The columns of the further tables of one run: `likelihood_columns`, `regions_columns`. */
+static void define_further(const ZpPlot *plot, FILE *file) {
+  for (int k = 0; k < ZP_FURTHER; k++) {
+    const ZpTable *table = plot->single->further[k];
+    if (!table) continue;
+    fprintf(file, "%s_columns = ' ", zp_further_name[k]);
+    for (size_t i = 0; i < table->columns; i++)
+      fprintf(file, "%s ", table->column[i].name);
+    fputs("'\n", file);
+    for (size_t i = 0; i < table->columns; i++) {
+      ZpPlotColumn column = {.unit = table->column[i].unit, .help = table->column[i].help};
+      snprintf(column.name, sizeof column.name, "%s", table->column[i].name);
+      column.key = find_key(plot, column.name);
+      define_column(&column, file);
+    }
+  }
+}
+
 /* `all_columns`, and `columns`, those with two numbers at least. */
 static void define_columns(const ZpPlot *plot, FILE *file) {
   for (size_t least = 0; least <= 2; least += 2) {
@@ -149,9 +174,7 @@ static void define_columns(const ZpPlot *plot, FILE *file) {
     define(file, "lowest_", column->name, column->low);
     define(file, "highest_", column->name, column->high);
     define_count(file, "count_", column->name, column->count);
-    define_text(file, "si_", column->name, column->unit);
-    define_text(file, "help_", column->name, column->help);
-    if (column->key >= 0) define_shown(column, file);
+    define_column(column, file);
   }
 }
 
@@ -229,6 +252,7 @@ void zp_plot_define(const void *of, FILE *file) {
   define_columns(plot, file);
   define_lists(plot, file);
   if (plot->single) define_run(plot->single, file);
+  if (plot->single) define_further(plot, file);
   if (design) { /* samples of a combination of the lists' values, of which in `blocks` rows the first are independent */
     define_count(file, "", "samples", zp_design_samples(design));
     define_count(file, "", "blocks", zp_design_blocks(design));

@@ -13,6 +13,7 @@
  *   @drive.rate   the key differs from its default
  *   +drive.rate   it is above 0
  *   :shapes.dat   there is such a file of data
+ *   :regions      the run has such a further table
  *   :axis         one of the facts in `flag`
  *   !voltage_V    the rest does not hold
  *
@@ -28,6 +29,7 @@
 #include "io/plan.h"
 #include "io/plot.h"
 #include "io/report.h"
+#include "study/result.h"
 
 /* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
 enum { DRAWN_MOST = 10000, PICTURES_MOST = 100, WORDS_SIZE = 512 };
@@ -88,6 +90,8 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
               {"front", optimum && optimum->objectives > 1 && optimum->count > 1},
               {"panel", count_panels(plot) == 1},
               {"panels", count_panels(plot) > 1}};
+  for (int k = 0; k < ZP_FURTHER; k++)
+    if (strcmp(zp_further_name[k], name) == 0) return plot->single && plot->single->further[k];
   for (const ZpPlotData *data = zp_plot_data; data->name; data++)
     if (strcmp(data->name, name) == 0) return data->has(plot);
   for (size_t i = 0; i < sizeof flag / sizeof flag[0]; i++)

@@ -120,6 +120,8 @@ const double *zp_shape_array(const ZpShape *shape, const ZpShapeArray *array) {
 size_t zp_result_numbers(const ZpResult *result) {
   size_t numbers = 0;
   if (result->series) numbers += result->series->rows * result->series->columns;
+  for (int k = 0; k < ZP_FURTHER; k++)
+    if (result->further[k]) numbers += result->further[k]->rows * result->further[k]->columns;
   if (result->shapes) numbers += result->shapes->frames * result->shapes->frame_size;
   if (result->map) numbers += 5 * result->map->nx * result->map->ny;
   return numbers;

@@ -25,6 +25,7 @@ void zp_result_forget_states(ZpResult *result) {
 void zp_result_destroy(ZpResult *result) {
   if (!result) return;
   zp_result_clear(result);
+  zp_result_forget_further(result);
   zp_shapes_destroy(result->shapes);
   zp_field_map_destroy(result->map);
   zp_checkpoint_destroy(result->checkpoint);

@@ -21,6 +21,18 @@ typedef struct ZpLimits ZpLimits;
 /* Free them; NULL is allowed. */
 void zp_limits_destroy(ZpLimits *limits);
 
+/* Tables of a single run beside its series, each with a file of its own: NAME.csv. */
+typedef enum ZpFurther {
+  ZP_FURTHER_LIKELIHOOD, /* calibrate: how the sum of squares rises with each fitted parameter */
+  ZP_FURTHER_REGIONS,    /* calibrate: the joint 95 % region of each pair of parameters */
+  ZP_FURTHER
+} ZpFurther;
+
+extern const char *const zp_further_name[ZP_FURTHER];
+
+/* Free the further tables of a result. */
+void zp_result_forget_further(ZpResult *result);
+
 /* Take away the notes. */
 void zp_result_forget_notes(ZpResult *result);
 
@@ -47,11 +59,12 @@ struct ZpResult {
       sensitivity[ZP_MAX_SENSITIVITIES]; /* of all key by key, in the order of sensitivity.by, then of parts */
   bool cut;                              /* there was no room for another one */
   size_t sensitivities;
-  ZpTable *series;          /* the study's table; NULL if it has none */
-  ZpShapes *shapes;         /* NULL if it has none */
-  ZpFieldMap *map;          /* NULL if it has none */
-  ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
-  ZpLimits *limits;         /* the states of study limits; NULL for other studies */
+  ZpTable *series;              /* the study's table; NULL if it has none */
+  ZpTable *further[ZP_FURTHER]; /* NULL where it has none */
+  ZpShapes *shapes;             /* NULL if it has none */
+  ZpFieldMap *map;              /* NULL if it has none */
+  ZpCheckpoint *checkpoint;     /* of a run in time, to resume from; NULL if there is none */
+  ZpLimits *limits;             /* the states of study limits; NULL for other studies */
 };
 
 #endif
