@@ -496,6 +496,43 @@ def retention_table(runs):
     return table(["film", "voltage", "cycles 6 to 10", "cycle 50", "left", "computed, 3.4·10¹³ Ω m", "error", "8.8·10¹² Ω m", "error"], rows)
 
 
+POUCH_RESISTIVITY = {15: 2.2e13, 18: 4.8e12}  # ohm m, by all rows of a film
+TWO_TIMES = {"medium.resistivity": 1e15, "electro.leak_share": 0.5, "electro.leak_ratio": 1e3}  # by those of 18 um
+
+
+def pouch_cycles(runs, film, voltage, keys):
+    """Largest strokes of a pouch in cycles 6 to 10, their mean, and in the last of 50, m."""
+    rows = runs.rows("charge-retention-pouch", {"insulator.thickness": f"{film:g} um", "drive.voltage": f"{voltage:g} kV", **keys})
+    cycles = [0] * 51
+    for row in rows:
+        cycle = int(row["time_s"] / 2)
+        cycles[cycle] = max(cycles[cycle], row["stroke_m"] - rows[0]["stroke_m"])
+    return sum(cycles[5:10]) / 5, cycles[49]
+
+
+def voltage_left(rows, row):
+    """Share of the voltage at which the last stroke would have been a first one, by the straight lines through the first
+    strokes of that film; None far below them."""
+    points = [(r["first_mm"], r["voltage_kV"]) for r in rows if r["film_um"] == row["film_um"]]
+    if row["last_mm"] < 0.5 * points[0][0]:
+        return None
+    (s, a), (t, b) = next((pair for pair in zip(points, points[1:]) if row["last_mm"] < pair[1][0]), points[-2:])
+    return (a + (b - a) * (row["last_mm"] - s) / (t - s)) / row["voltage_kV"]
+
+
+def pouch_retention_table(runs):
+    rows = published("charge-retention")
+    one = [pouch_cycles(runs, r["film_um"], r["voltage_kV"], {"medium.resistivity": POUCH_RESISTIVITY[r["film_um"]]}) for r in rows]
+    two = [pouch_cycles(runs, r["film_um"], r["voltage_kV"], TWO_TIMES) if r["film_um"] == 18 else None for r in rows]
+    scale = sum(first * r["first_mm"] for (first, _), r in zip(one, rows)) / sum(first**2 for first, _ in one)  # mm/m
+    lines = []
+    for r, (first, last), both in zip(rows, one, two):
+        left = voltage_left(rows, r)
+        lines.append([f"{r['film_um']:g} µm", f"{r['voltage_kV']:g} kV", f"{r['first_mm']:.2f} mm", f"{scale * first:.2f} mm", f"{r['last_mm'] / r['first_mm']:.2f}",
+                      f"{last / first:.2f}", f"{both[1] / both[0]:.2f}" if both else "–", f"{left:.2f}" if left else "–"])
+    return table(["film", "voltage", "cycles 6 to 10", "pouch", "left", "pouch", "with two time constants", "voltage left"], lines)
+
+
 def pouch_strain(curve, voltage):
     """Strain of a followed branch at a voltage, over that without."""
     for (a, s), (b, t) in zip(curve, curve[1:]):
@@ -584,6 +621,7 @@ def slow_sections(runs):
     yield "zip-band", zip_band(runs)
     yield "bead-volume", bead_volumes(runs)
     yield "charge-retention", retention_table(runs)
+    yield "charge-retention-pouch", pouch_retention_table(runs)
     yield "pouch-strokes", pouch_strokes_table(runs)
     yield from validity_comb.Comparison(runs).sections(table)
 

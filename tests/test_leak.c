@@ -54,6 +54,60 @@ TESTS(test_step_of_the_voltage, 0, 3) {
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-9 * (zp_sim_get(sim, "electric_work") - start));
 }
 
+/* Patches that conduct better by a ratio, eq. (25.10). */
+static const double SHARE = 0.3, RATIO = 20;
+#define PATCHES                                                                                                        \
+  {"electro.leak_share", SHARE}, {                                                                                     \
+    "electro.leak_ratio", RATIO                                                                                        \
+  }
+
+/* Two exponentials: the faces are two series of layers beside each other, of which one relaxes faster by the ratio.
+ * The interface voltage and the charge are means, the force is that of the mean square, the current passes through
+ * both. */
+TESTS(test_patches_relax_by_two_times, 0, 3) {
+  static const double step[] = {0.01, 0.3, 3};
+  ZpActuatorDef def = DEF(HELD_PLATE, PATCHES, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M});
+  ZpSim *sim = sim_of(model_of(&def));
+  double a = 2 * T, area = 0.02 * 12.7e-3, heat = 0, start = zp_sim_get(sim, "electric_work");
+  enum { PARTS = 20000 };
+  for (int i = 1; i <= 10; i++) {
+    double dt = step[_i], before = zp_sim_get(sim, "time");
+    ck_assert(zp_outcome_good(zp_sim_step(sim, dt, NULL, NULL)));
+    double t = zp_sim_get(sim, "time"), slow = field_at(t), fast = field_at(RATIO * t);
+    double E = (1 - SHARE) * slow + SHARE * fast, E_i = (VOLTS - E * GAP) / a;
+    double force = 0.5 * ZP_EPS0 * EPS_M * area * ((1 - SHARE) * slow * slow + SHARE * fast * fast);
+    for (int k = 0; k < PARTS; k++) {
+      double at = before + (k + 0.5) * dt / PARTS;
+      heat += area * ((1 - SHARE) * power_at(at) + SHARE * RATIO * power_at(RATIO * at)) * dt / PARTS;
+    }
+    /* 5.9e-12 measured */
+    ck_below(fabs(zp_sim_get(sim, "interface_voltage") + VOLTS - E * (GAP + a * EPS_M / EPS_I)), 1.7e-11 * VOLTS);
+    ck_near(zp_sim_get(sim, "charge"), area * ZP_EPS0 * EPS_I * E_i, 1.4e-10); /* 4.8e-11 measured */
+    ck_near(zp_sim_get(sim, "force"), force, 3e-10);                           /* 1.0e-10 measured */
+    ck_near(zp_sim_shape(sim).line_force[1] * 0.02, force, 3e-10);             /* 1.0e-10 measured */
+    double current = area / (a * RHO_I) * ((1 - SHARE) * (VOLTS - slow * GAP) + SHARE * RATIO * (VOLTS - fast * GAP));
+    ck_near(zp_sim_get(sim, "leak_current"), current, 1.2e-10); /* 4.1e-11 measured */
+    ck_near(zp_sim_get(sim, "leak_loss"), heat, 5e-8);          /* 1.7e-8 measured, of the sum here */
+  }
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-9 * (zp_sim_get(sim, "electric_work") - start));
+}
+
+/* Patches that are all of the faces are faces that conduct better; patches that do not conduct better are none. */
+TESTS(test_patches_that_are_all_or_alike, 0, 2) {
+  static const char *const of[] = {"interface_voltage", "charge", "stroke", "leak_loss", "insulator_field"};
+  const Setting share = {"electro.leak_share", _i ? 0.4 : 1}, ratio = {"electro.leak_ratio", _i ? 1 : RATIO};
+  const double less = _i ? 1 : RATIO;
+  ZpActuatorDef patched = DEF(share, ratio, {"mesh.nodes", 9}, {"insulator.resistivity", 3e12},
+                              {"medium.resistivity", 1e12}, {"drive.voltage", 3e3}),
+                alike = DEF({"mesh.nodes", 9}, {"insulator.resistivity", 3e12 / less},
+                            {"medium.resistivity", 1e12 / less}, {"drive.voltage", 3e3});
+  ZpSim *sim[] = {sim_of(model_of(&patched)), sim_of(model_of(&alike))};
+  for (int k = 0; k < 2; k++)
+    ck_assert(zp_outcome_good(zp_sim_run(sim[k], 0.1, false, NULL, NULL)));
+  for (size_t k = 0; k < LENGTH_OF(of); k++)
+    ck_near(zp_sim_get(sim[0], of[k]), zp_sim_get(sim[1], of[k]), 1e-12); /* 4.4e-16 measured */
+}
+
 /* A value of the present row. The row is kept, so the next mean current begins here. */
 static double read(ZpSim *sim, const char *name) {
   size_t count, k = 0;
@@ -130,7 +184,7 @@ typedef struct Faces {
   ZpPlatesStep forces;
   ZpPlatesByVoltage by;
   ZpLeakEval leak;
-  double Z[4 * 8], Z1[4 * 8];
+  double Z[ZP_LEAK_PATCHES * 4 * 8], Z1[ZP_LEAK_PATCHES * 4 * 8];
   ZpLeakStep step;
   void *memory;
 } Faces;
@@ -142,7 +196,7 @@ static void reserve(Faces *f, void *block) {
   zp_plates_reserve(p, &f->end, &arena);
   zp_plates_step_reserve(p, &f->forces, &arena);
   zp_plates_by_voltage_reserve(p, &f->by, &arena);
-  zp_leak_reserve(p, &f->leak, &arena);
+  zp_leak_reserve(&f->model->leak, p, &f->leak, &arena);
   f->memory = block ? block : zp_calloc(1, arena.used);
 }
 
@@ -191,10 +245,11 @@ TEST(test_passed_charge_is_of_the_mean_length) {
 }
 
 /* Derivatives of force and charge of a step with respect to voltage and gaps at its end, against finite differences,
- * with the cap and without. */
-TESTS(test_derivatives, 0, 2) {
-  ZpActuatorDef def = DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", _i}, {"insulator.resistivity", 1e10},
-                          {"medium.resistivity", 3e10});
+ * with the cap and without, of faces that are alike, and of patches. */
+TESTS(test_derivatives, 0, 4) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", _i % 2}, {"insulator.resistivity", 1e10},
+                          {"medium.resistivity", 3e10}, {"electro.leak_share", _i / 2 ? SHARE : 0},
+                          {"electro.leak_ratio", _i / 2 ? RATIO : NAN});
   Faces f;
   make_faces(&f, &def);
   size_t N = f.model->nodes, stride = f.model->stride;
@@ -230,20 +285,22 @@ TESTS(test_derivatives, 0, 2) {
 /* -- motion ---------------------------------------------------------------------------------------- */
 
 /* Zip, hold and release: the energy from the source is stored, does work, or is heat of a known kind. */
-TESTS(test_energy_of_zip_hold_and_release, 1, 5) {
+TESTS(test_energy_of_zip_hold_and_release, 1, 6) {
   static const struct {
     int supply, liquid;
-    double voltage, rho_i, rho_m, most, rise;
-  } of[] = {{ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0},
-            {ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 1e11, NAN, 2e-9, 0.1},
-            {ZP_SUPPLY_POCKET_6KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0},
-            {ZP_SUPPLY_CONVERTER_10KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0},
-            {ZP_SUPPLY_NONE, ZP_LIQUID_SUBMERGED, 10e3, 3e11, 1e11, 2e-8, 0}};
+    double voltage, rho_i, rho_m, most, rise, share;
+  } of[] = {{ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0, 0},
+            {ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 1e11, NAN, 2e-9, 0.1, 0},
+            {ZP_SUPPLY_POCKET_6KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0, 0},
+            {ZP_SUPPLY_CONVERTER_10KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 2e-9, 0, 0},
+            {ZP_SUPPLY_NONE, ZP_LIQUID_SUBMERGED, 10e3, 3e11, 1e11, 2e-8, 0, 0},
+            {ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 3e12, 1e12, 2e-9, 0, 0.3}};
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"source.supply", of[_i].supply}, {"liquid.model", of[_i].liquid},
           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.voltage", of[_i].voltage},
           {"drive.duty", 0.6}, {"solver.tolerance", 1.5e-4}, {"drive.rise_time", of[_i].rise},
-          {"insulator.resistivity", of[_i].rho_i}, {"medium.resistivity", of[_i].rho_m});
+          {"insulator.resistivity", of[_i].rho_i}, {"medium.resistivity", of[_i].rho_m},
+          {"electro.leak_share", of[_i].share}, {"electro.leak_ratio", of[_i].share > 0 ? RATIO : NAN});
   ZpSim *sim = sim_of(model_of(&def));
   double off = 0, heat = 0, closest = 0;
   for (int i = 0; i < 100; i++) {
@@ -320,6 +377,20 @@ TEST(test_insulator_sees_the_charge) {
   ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-12); /* 0 measured */
 }
 
+/* Of patches the insulator's field is that of those where it is strongest: of the fast ones where the liquid conducts
+ * better, and of the slow ones where insulators alone conduct, whose field decays. */
+TESTS(test_insulator_sees_the_stronger_patch, 0, 2) {
+  static const double t = 0.05;
+  double a = 2 * T, tau = ZP_EPS0 * RHO_I * (EPS_I * GAP + EPS_M * a) / GAP;
+  ZpActuatorDef def =
+      DEF(HELD_PLATE, PATCHES, {"insulator.resistivity", RHO_I}, {"medium.resistivity", _i ? NAN : RHO_M});
+  ZpSim *sim = sim_of(model_of(&def));
+  ck_assert(zp_outcome_good(zp_sim_step(sim, t, NULL, NULL)));
+  double fast = (VOLTS - field_at(RATIO * t) * GAP) / a;
+  double slow = VOLTS * EPS_M / (EPS_I * GAP + EPS_M * a) * exp(-t / tau);
+  ck_near(zp_sim_get(sim, "insulator_field"), _i ? slow : fast, 1.1e-10); /* 3.7e-11 measured */
+}
+
 /* Of both halves of an actuator that moves, the currents of all rows add up to what the leakage currents and the charge
  * of the last row say, the powers to the energy; a trace has the sum of the currents. */
 TEST(test_recorded_charge_that_is_given) {
@@ -368,4 +439,15 @@ TESTS(test_refused, 0, 6) {
   Setting all[] = {{"medium.resistivity", 1e10}, of[_i].with};
   ck_ok(resolve(&def, all, 2, &err));
   ck_says(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT, of[_i].says);
+}
+
+/* Patches need their ratio, this a share, and both something that conducts. */
+TESTS(test_patches_refused, 0, 3) {
+  static const Setting of[][2] = {{{"medium.resistivity", 1e10}, {"electro.leak_share", 0.5}},
+                                  {{"medium.resistivity", 1e10}, {"electro.leak_ratio", 5}},
+                                  {{"electro.leak_ratio", 5}, {"electro.leak_share", 0.5}}};
+  static const char *const says[] = {"electro.leak_ratio", "electro.leak_share", "resistivity"};
+  ZpActuatorDef def = {0};
+  ck_ok(resolve(&def, of[_i], 2, &err));
+  ck_says(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT, says[_i]);
 }

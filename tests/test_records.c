@@ -149,6 +149,100 @@ TEST(missing_law_is_named) {
   ck_assert(named);
 }
 
+/* -- materials that remember ------------------------------------------------------------------------- */
+
+/* A record of the stroke of a run, whose rows have the same error in mean square as its size. */
+static void write_run(const ZpActuatorDef *truth, double until, double error) {
+  const char *stroke = "stroke";
+  uint64_t seed = 11;
+  ZpModel *model = model_of(truth);
+  ZpTrace *trace;
+  ZpError err;
+  ck_assert_int_eq(zp_trace_create(model, &stroke, 1, NULL, 0, until, NULL, &trace, &err), ZP_OK);
+  FILE *file = fopen("record.csv", "w");
+  fprintf(file, "time_s,stroke_m\n");
+  for (int i = 1; i <= FRAMES; i++) {
+    const double t = until * i * i / (FRAMES * FRAMES);
+    fprintf(file, "%.17g,%.17g\n", t, zp_trace_at(trace, 0, t).value + sqrt(3) * error * noise(&seed));
+  }
+  ck_assert_int_eq(fclose(file), 0);
+  zp_trace_destroy(trace);
+}
+
+/* The keys of `def` are fitted to the record of the truth, which lies within their intervals, and these are narrow. */
+static void expect_found(const ZpActuatorDef *def, const ZpActuatorDef *truth, double width) {
+  const ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, def);
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  char keys[sizeof def->calibrate.fit], name[96];
+  snprintf(keys, sizeof keys, "%s", def->calibrate.fit);
+  for (char *key = strtok(keys, ", "); key; key = strtok(NULL, ", ")) {
+    const double value = zp_def_get(truth, zp_key_find(key));
+    snprintf(name, sizeof name, "%s_interval_95_low", key);
+    const double low = zp_result_get(result, name);
+    snprintf(name, sizeof name, "%s_interval_95_high", key);
+    const double high = zp_result_get(result, name);
+    printf("%s: %g of %g .. %g\n", key, value, low, high);
+    ck_assert(low < value && value < high);
+    ck_below((high - low) / value, width);
+  }
+}
+
+/* A held tape on a foil is released and creeps: moduli and time of a standard linear solid are found from others. */
+TEST(creep_of_a_tape_is_found) {
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", 0.02},
+          {"ribbon.thickness", 1e-6}, {"ribbon.density", 100}, {"insulator.young_modulus", 30e6},
+          {"insulator.relaxation_modulus", 60e6}, {"insulator.relaxation_time", 100}, {"load.mass", 10e-6},
+          {"mesh.nodes", 9}, {"damping.internal", 0.05}, {"initial.state", ZP_INITIAL_STRAIGHT});
+  ZpActuatorDef truth = def;
+  write_run(&truth, 400, 5e-6);
+  snprintf(def.data.file, sizeof def.data.file, "record.csv");
+  snprintf(def.calibrate.fit, sizeof def.calibrate.fit,
+           "insulator.young_modulus, insulator.relaxation_modulus, insulator.relaxation_time");
+  def.insulator.young_modulus = 40e6;
+  def.insulator.relaxation_modulus = 40e6;
+  def.insulator.relaxation_time = 50;
+  def.calibrate.starts = 1;
+  expect_found(&def, &truth, 0.25); /* 0.083 measured */
+}
+
+/* Strips that creep after a step of the voltage below pull-in. */
+TEST(creep_of_strips_is_found) {
+  ZpActuatorDef def = recorded("ribbon.relaxation_modulus, ribbon.relaxation_time"), truth;
+  def.drive.voltage = 4e3;
+  def.mesh.nodes = 7;
+  def.calibrate.starts = 1;
+  def.solver.tolerance = 1e-3;
+  def.damping.internal = 0.02;
+  def.ribbon.relaxation_modulus = 60e9;
+  def.ribbon.relaxation_time = 0.2;
+  truth = def;
+  write_run(&truth, 1, 5e-6);
+  def.ribbon.relaxation_modulus = 40e9;
+  def.ribbon.relaxation_time = 0.1;
+  expect_found(&def, &truth, 0.43); /* 0.145 measured */
+}
+
+/* Charge that patches retain for a short and the rest for a long time, after a step of the voltage: resistivity, share
+ * and ratio. */
+TEST(retention_of_two_times_is_found) {
+  ZpActuatorDef def = recorded("medium.resistivity, electro.leak_share, electro.leak_ratio"), truth;
+  def.drive.voltage = 5e3;
+  def.mesh.nodes = 7;
+  def.calibrate.starts = 1;
+  def.solver.tolerance = 1e-3;
+  def.damping.internal = 0.02;
+  def.medium.resistivity = 1e11;
+  def.electro.leak_share = 0.3;
+  def.electro.leak_ratio = 20;
+  truth = def;
+  write_run(&truth, 4, 5e-6);
+  def.medium.resistivity = 2e11;
+  def.electro.leak_share = 0.5;
+  def.electro.leak_ratio = 10;
+  expect_found(&def, &truth, 0.39); /* 0.13 measured */
+}
+
 TEST(record_without_rows_is_refused) {
   ZpActuatorDef def = recorded("medium.permittivity");
   write_record(&def, 0, 0);

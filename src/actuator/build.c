@@ -278,12 +278,20 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
 }
 
 /* Eq. (25.3). The resistivity of a material that does not conduct is NAN. */
-static ZpLeakParams leak_of(const ZpModel *model) {
+static ZpLeakPatch patch_of(const ZpModel *model, double share, double ratio) {
   const ZpActuatorDef *def = &model->def;
   double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = zp_insulation(def);
+  double conductance = isnan(insulators) ? 0 : model->mirror * def->ribbon.width / (insulators * both);
+  double discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity);
+  return (ZpLeakPatch){share, ratio * conductance, ratio * discharge};
+}
+
+/* Eq. (25.10); also of a model that does not leak, whose one patch has no charge. */
+static ZpLeakParams leak_of(const ZpModel *model) {
+  const double fast = model->def.electro.leak_share, ratio = model->def.electro.leak_ratio;
   return (ZpLeakParams){.insulators = 2 * model->plates.k / model->plates.d,
-                        .conductance = isnan(insulators) ? 0 : model->mirror * def->ribbon.width / (insulators * both),
-                        .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
+                        .patches = fast > 0 ? 2 : 1,
+                        .patch = {patch_of(model, 1 - fast, 1), patch_of(model, fast, ratio)}};
 }
 
 static ZpFieldParams cross_section_of(const ZpModel *model) {
@@ -888,7 +896,7 @@ static void derive(ZpModel *model) {
   model->outer = outer_of(def);
   model->own = model->has_film ? ZP_FILM_MODES : 0;
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));
-  if (model->leaks) model->leak = leak_of(model);
+  model->leak = leak_of(model);
   model->internal_damping = internal_damping_of(def);
   for (size_t j = 0; j < model->count; j++)
     model->pouch.mass += zp_ribbon_mass(model, j);

@@ -45,7 +45,7 @@ static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
   e->cover.part = zp_arena_take(&arena, model->nodes);
   e->open = zp_arena_take(&arena, model->nodes);
   e->extra_residual = e->film.r;
-  zp_leak_reserve(&model->plates, &e->leak, &arena);
+  zp_leak_reserve(&model->leak, &model->plates, &e->leak, &arena);
   e->memory_end = zp_arena_take(&arena, model->kept);
   zp_contact_reserve(&model->faces, &e->faces, &arena);
   zp_surface_reserve(model->nodes, &e->surface, &arena);

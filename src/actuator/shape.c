@@ -21,21 +21,27 @@ bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
 }
 
 /* The charge between insulators and liquid at station i, as a voltage: that of the nearest place. */
-static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
+static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t patch, size_t i) {
   bool last = i + 1 == model->nodes;
   if (!room->interface) return 0;
-  return room->interface[last ? ZP_PLATES_PLACES * i - 2 : ZP_PLATES_PLACES * i];
+  return zp_leak_of_patch(&model->plates, room->interface,
+                          patch)[last ? ZP_PLATES_PLACES * i - 2 : ZP_PLATES_PLACES * i];
 }
 
-/* Eqs. (4.10) and (25.2); beyond a bead with air between the faces. */
+/* Eqs. (4.10) and (25.2); beyond a bead with air between the faces. Of patches the force in all, and the strongest
+ * field. */
 static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpShape *shape, size_t i) {
-  double Z = interface_at(model, room, i), Y = shape->voltage + Z, gap = shape->gap[i];
   bool wet = zp_shape_is_wet(model, room, i);
   ZpSeriesParams series = model->series;
   if (!wet) series.eps_m = 1;
-  double field = zp_series_at(&series, Y, gap).insulator;
-  room->line_force[i] = zp_plates_law(wet ? &model->plates : &model->air, Y, gap).W;
-  room->insulator_field[i] = Z == 0 ? field : fabs(copysign(field, Y) - Z / zp_insulation(&model->def));
+  room->line_force[i] = 0;
+  for (size_t k = 0; k < model->leak.patches; k++) {
+    double Z = interface_at(model, room, k, i), Y = shape->voltage + Z, gap = shape->gap[i];
+    double field = zp_series_at(&series, Y, gap).insulator;
+    if (Z != 0) field = fabs(copysign(field, Y) - Z / zp_insulation(&model->def));
+    room->line_force[i] += model->leak.patch[k].share * zp_plates_law(wet ? &model->plates : &model->air, Y, gap).W;
+    room->insulator_field[i] = k == 0 ? field : fmax(room->insulator_field[i], field);
+  }
 }
 
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {

@@ -8,7 +8,7 @@
 
 /* Room for what follows from a shape. */
 typedef struct ZpShapeRoom {
-  const double *interface; /* [ZP_PLATES_PLACES N] interface voltages of what leaks; NULL: there is no charge */
+  const double *interface; /* interface voltages (electro/leak.h); NULL: there is no charge */
   const double *k0;        /* natural curvatures (ribbon/rod.h); NULL: those without voltage */
   const double *strain;    /* plastic strains (ribbon/rod_plastic.h); NULL: none */
   double reach[ZP_BEADS];  /* wet length of each half, m; INFINITY: no bead ends there */

@@ -1,8 +1,8 @@
 /* Letters of docs/theory.md, section 25:
  *   Z  interface voltage, V             Y  U + Z, V
  *   q  charge per length on the liquid's faces, that of the plates law at Y, C/m
- *   C  capacitance of both insulators per length, F/m        G  their conductance per length, S/m
- *   s  conductivity over permittivity of the liquid, 1/s; 0 of air
+ *   C  capacitance of both insulators per length, F/m        G  their conductance per length, S/m, of a patch
+ *   s  conductivity over permittivity of the liquid, 1/s, of a patch; 0 of air
  * The insulators conduct G (q / C - Z), the liquid s q; what the one has more than the other gathers: C dZ/dt. */
 #include "electro/leak.h"
 
@@ -15,33 +15,39 @@ static size_t places(const ZpPlatesParams *plates) {
   return ZP_PLATES_PLACES * plates->nodes;
 }
 
-void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpArena *arena) {
-  size_t count = places(plates);
-  e->face = zp_arena_take_of(arena, count, sizeof *e->face);
-  e->piece = zp_arena_take_of(arena, count, sizeof *e->piece);
+size_t zp_leak_state(const ZpLeakParams *p, const ZpPlatesParams *plates) {
+  return p->patches * places(plates);
+}
+
+void zp_leak_reserve(const ZpLeakParams *p, const ZpPlatesParams *plates, ZpLeakEval *e, ZpArena *arena) {
+  e->face = zp_arena_take_of(arena, zp_leak_state(p, plates), sizeof *e->face);
+  e->piece = zp_arena_take_of(arena, places(plates), sizeof *e->piece);
   zp_plates_step_reserve(plates, &e->work, arena);
 }
 
 /* -- faces ----------------------------------------------------------------------------------------- */
 
-/* Of both ends of a step, with the liquid where it is at its end => whether there are faces at place k. */
+/* Of both ends of a step, with the liquid where it is at its end => whether there are faces with the Z at `at`. */
 ZP_INLINE bool find_face(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesEval *start,
-                         const ZpPlatesEval *end, size_t k, ZpLeakFace *face) {
+                         const ZpPlatesEval *end, size_t at, ZpLeakFace *face) {
+  const size_t k = at % places(plates);
   if (!zp_plates_has_faces(plates, k)) return false;
   ZpPlatesPlace place = zp_plates_place(plates, end->cover, k);
   face->place = k;
+  face->at = at;
+  face->patch = &p->patch[at / places(plates)];
   face->wet = place.wet;
   face->g1 = zp_plates_place_gap(&place, end), face->length1 = zp_plates_place_length(&place, end);
   face->g0 = start == end ? face->g1 : zp_plates_place_gap(&place, start);
   face->length0 = start == end ? face->length1 : zp_plates_place_length(&place, start);
-  face->part = 1;
+  face->part = face->patch->share;
   if (place.wet < 1 && plates->air->relative == 0) { /* no electrodes, so no charges, beyond their end */
-    face->part = place.wet;
+    face->part *= place.wet;
     if (place.wet == 0) return false;
-    face->length0 *= place.wet, face->length1 *= place.wet;
     place.wet = 1;
   }
-  const ZpLeakSide liquid = {plates, place.wet, p->discharge}, air = {plates->air, 1 - place.wet, 0};
+  face->length0 *= face->part, face->length1 *= face->part;
+  const ZpLeakSide liquid = {plates, place.wet, face->patch->discharge}, air = {plates->air, 1 - place.wet, 0};
   face->sides = place.wet > 0 && place.wet < 1 ? 2 : 1;
   face->side[0] = place.wet > 0 ? liquid : air;
   face->side[1] = air;
@@ -124,31 +130,33 @@ typedef struct Conduction {
   double insulators, gathers;
 } Conduction;
 
-ZP_INLINE Conduction conduction(const ZpLeakParams *p, const Charges *charges, double Y, double Z) {
+ZP_INLINE Conduction conduction(const ZpLeakParams *p, const ZpLeakPatch *patch, const Charges *charges, double Y,
+                                double Z) {
   double q = 0, liquid = 0;
   for (int k = 0; k < charges->count; k++) {
     q += at(&charges->of[k], Y);
     liquid += charges->of[k].discharge * at(&charges->of[k], Y);
   }
-  double through = p->conductance * (q / p->insulators - Z);
+  double through = patch->conductance * (q / p->insulators - Z);
   return (Conduction){through, through - liquid};
 }
 
 /* At an instant; `sides` is a constant where this is inlined. */
 ZP_INLINE Conduction conduction_at(const ZpLeakParams *p, const ZpLeakFace *face, int sides, double Y, double Z) {
   Charges charges = charges_of(face, sides, face->g1);
-  return conduction(p, &charges, Y, Z);
+  return conduction(p, face->patch, &charges, Y, Z);
 }
 
 /* Weight of a step's end with which a place of constant gap and voltage relaxes exactly. */
-ZP_INLINE double weight_of_end(const ZpLeakParams *p, const Charges *charges, double Y, double h) {
+ZP_INLINE double weight_of_end(const ZpLeakParams *p, const ZpLeakPatch *patch, const Charges *charges, double Y,
+                               double h) {
   double slope = 0, liquid = 0;
   for (int k = 0; k < charges->count; k++) {
     if (is_held(&charges->of[k], Y)) continue;
     slope += charges->of[k].slope;
     liquid += charges->of[k].discharge * charges->of[k].slope;
   }
-  return zp_decay_weight(h * (p->conductance * (1 - slope / p->insulators) + liquid) / p->insulators);
+  return zp_decay_weight(h * (patch->conductance * (1 - slope / p->insulators) + liquid) / p->insulators);
 }
 
 /* own Y = known + the sum of `passes` times the charge of each side. The difference of both sides rises with Y, so the
@@ -195,10 +203,10 @@ ZP_INLINE double solve(Balance *b, const Charges *charges) {
 /* C (Z1 - Z0) = h times the weighted mean of the excess: linear in Y1, or with charges fixed by the cap => Y1, and what
  * goes with it. `sides` is a constant where this is inlined. */
 ZP_INLINE double end_of(const ZpLeakParams *p, const ZpLeakStep *step, double Z0, int sides, ZpLeakFace *face) {
-  double C = p->insulators, G = p->conductance, Y0 = step->U0 + Z0, U1 = step->U1;
+  double C = p->insulators, G = face->patch->conductance, Y0 = step->U0 + Z0, U1 = step->U1;
   Charges charges0 = charges_of(face, sides, face->g0), charges = charges_of(face, sides, face->g1);
-  double weight = weight_of_end(p, &charges0, Y0, step->h), h = step->h * weight;
-  Conduction before = conduction(p, &charges0, Y0, Z0);
+  double weight = weight_of_end(p, face->patch, &charges0, Y0, step->h), h = step->h * weight;
+  Conduction before = conduction(p, face->patch, &charges0, Y0, Z0);
   Balance b = {.own = C + h * G, .known = C * (U1 + Z0) + (step->h - h) * before.gathers + h * G * U1};
   for (int k = 0; k < charges.count; k++)
     b.passes[k] = h * (G / C - charges.of[k].discharge);
@@ -209,7 +217,7 @@ ZP_INLINE double end_of(const ZpLeakParams *p, const ZpLeakStep *step, double Z0
     bend += charges.of[k].bend * Y;
     passes += b.passes[k] * (charges.of[k].bend * Y);
   }
-  double through = conduction(p, &charges, Y, Y - U1).insulators, of_end = h * G;
+  double through = conduction(p, face->patch, &charges, Y, Y - U1).insulators, of_end = h * G;
   face->by_gap = passes * over;
   face->by_voltage = b.own * over;
   face->passed.charge = (step->h - h) * before.insulators + h * through;
@@ -220,24 +228,26 @@ ZP_INLINE double end_of(const ZpLeakParams *p, const ZpLeakStep *step, double Z0
 
 void zp_leak_step(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e) {
   e->faces = 0;
-  for (size_t k = 0; k < places(plates); k++) {
+  for (size_t at = 0; at < zp_leak_state(p, plates); at++) {
     ZpLeakFace *face = &e->face[e->faces];
-    double Z0 = e->Z[k] = step->Z[k];
-    if (!find_face(p, plates, step->start, step->end, k, face)) {
-      e->piece[k] = (ZpPlatesMean){0};
-      continue;
-    }
+    double Z0 = e->Z[at] = step->Z[at];
+    if (!find_face(p, plates, step->start, step->end, at, face)) continue;
     double Y = face->sides == 1 ? end_of(p, step, Z0, 1, face) : end_of(p, step, Z0, 2, face);
-    if (step->h > 0) e->Z[k] = Y - step->U1;
+    if (step->h > 0) e->Z[at] = Y - step->U1;
     e->faces++;
   }
 }
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
-/* Of a place, what belongs to its electrodes. */
-ZP_INLINE ZpPlatesMean part_of(const ZpLeakFace *face, ZpPlatesMean of) {
-  return (ZpPlatesMean){face->part * of.W, face->part * of.slope, face->part * of.P, face->part * of.W1};
+static void clear_pieces(const ZpPlatesParams *plates, ZpLeakEval *e) {
+  for (size_t k = 0; k < places(plates); k++)
+    e->piece[k] = (ZpPlatesMean){0};
+}
+
+/* To its place, what these faces are of it. */
+ZP_INLINE void add_part(const ZpLeakFace *face, ZpPlatesMean of, ZpLeakEval *e) {
+  e->piece[face->place] = sum_of(1, e->piece[face->place], face->part, of);
 }
 
 /* Contribution of the interface charge to the potential, J/m: eq. (25.4). */
@@ -247,12 +257,13 @@ ZP_INLINE double of_interface(const ZpLeakParams *p, double U, double Z) {
 
 void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e,
                     ZpPlatesStep *forces) {
+  clear_pieces(plates, e);
   for (const ZpLeakFace *face = e->face; face < e->face + e->faces; face++) {
-    double Z0 = step->Z[face->place], Z1 = e->Z[face->place], Y1 = step->U1 + Z1;
+    double Z0 = step->Z[face->at], Z1 = e->Z[face->at], Y1 = step->U1 + Z1;
     ZpPlatesMean piece = between(face, step->U0 + Z0, Y1, face->g0, face->g1);
     piece.slope += between_by_voltage(face, Y1, face->g0, face->g1).W * face->by_gap;
     piece.P += 0.5 * (of_interface(p, step->U0, Z0) + of_interface(p, step->U1, Z1));
-    e->piece[face->place] = part_of(face, piece);
+    add_part(face, piece, e);
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, forces);
 }
@@ -284,15 +295,17 @@ void zp_leak_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, con
   double C = p->insulators, U = step->U1;
   forces.Fx = by->Fx, forces.Fy = by->Fy, charges.Fx = by->Qx, charges.Fy = by->Qy;
   by->capacitance = 0;
+  clear_pieces(plates, e);
   for (const ZpLeakFace *face = e->face; face < end; face++) {
-    double Z = e->Z[face->place], by_U = face->by_voltage;
-    e->piece[face->place] = part_of(face, force_by_voltage(p, face, U, Z));
+    double Z = e->Z[face->at], by_U = face->by_voltage;
+    add_part(face, force_by_voltage(p, face, U, Z), e);
     by->capacitance +=
         face->length1 * (capacitance_of(face, U + Z, face->g1) * by_U - C * (by_U - 1) + face->passed.by_voltage);
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, &forces);
+  clear_pieces(plates, e);
   for (const ZpLeakFace *face = e->face; face < end; face++)
-    e->piece[face->place] = part_of(face, charge_piece(p, face, U, e->Z[face->place]));
+    add_part(face, charge_piece(p, face, U, e->Z[face->at]), e);
   zp_plates_step_of(plates, e->piece, step->end, step->end, &charges);
 }
 
@@ -327,7 +340,7 @@ ZpLeakHeat zp_leak_heat(const ZpLeakParams *p, const ZpLeakStep *step, const ZpL
   double touching = 0, stored = 0;
   for (const ZpLeakFace *face = e->face; face < e->face + e->faces; face++) {
     double g0 = face->g0, g1 = face->g1, dx0 = 0.5 * face->length0, dx1 = 0.5 * face->length1;
-    double Z0 = step->Z[face->place], Z1 = e->Z[face->place];
+    double Z0 = step->Z[face->at], Z1 = e->Z[face->at];
     double late = dx0 * rise(p, face, step->U1, g0, Z0, Z1), early = dx1 * rise(p, face, step->U0, g1, Z0, Z1);
     stored += late + early;
     if (g0 < 0) late = dx0 * rise(p, face, step->U1, 0, Z0, Z1);
@@ -341,21 +354,21 @@ ZpLeakHeat zp_leak_heat(const ZpLeakParams *p, const ZpLeakStep *step, const ZpL
 ZpPlatesTotals zp_leak_totals(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesEval *gaps, double U,
                               const double *Z) {
   ZpPlatesTotals totals = {0, 0, 0, 0};
-  for (size_t k = 0; k < places(plates); k++) {
+  for (size_t at = 0; at < zp_leak_state(p, plates); at++) {
     ZpLeakFace face;
-    if (!find_face(p, plates, gaps, gaps, k, &face)) continue;
+    if (!find_face(p, plates, gaps, gaps, at, &face)) continue;
     double gap = face.g1, length = face.length1;
     ZpPlatesTotals here = {0, 0, 0, 0};
     for (const ZpLeakSide *side = face.side; side < face.side + face.sides; side++) {
-      ZpPlatesLaw law = zp_plates_law(side->law, U + Z[k], gap);
+      ZpPlatesLaw law = zp_plates_law(side->law, U + Z[at], gap);
       here.force += side->share * law.W;
       here.potential += side->share * law.P;
       here.charge += side->share * law.q;
       here.inverse_gap += side->share * side->law->relative * zp_plates_inverse_gap(side->law, gap);
     }
     totals.force += length * here.force;
-    totals.potential += length * (here.potential + of_interface(p, U, Z[k]));
-    totals.charge += length * (here.charge - p->insulators * Z[k]);
+    totals.potential += length * (here.potential + of_interface(p, U, Z[at]));
+    totals.charge += length * (here.charge - p->insulators * Z[at]);
     totals.inverse_gap += length * here.inverse_gap;
   }
   return totals;
@@ -365,16 +378,16 @@ ZpLeakNow zp_leak_now(const ZpLeakParams *p, const ZpPlatesParams *plates, const
                       const double *Z) {
   ZpLeakNow now = {0, 0, 0, 0};
   double all = 0;
-  for (size_t k = 0; k < places(plates); k++) {
+  for (size_t at = 0; at < zp_leak_state(p, plates); at++) {
     ZpLeakFace face;
-    if (!find_face(p, plates, gaps, gaps, k, &face)) continue;
+    if (!find_face(p, plates, gaps, gaps, at, &face)) continue;
     double length = face.length1, gap = face.g1;
     Conduction here =
-        face.sides == 1 ? conduction_at(p, &face, 1, U + Z[k], Z[k]) : conduction_at(p, &face, 2, U + Z[k], Z[k]);
+        face.sides == 1 ? conduction_at(p, &face, 1, U + Z[at], Z[at]) : conduction_at(p, &face, 2, U + Z[at], Z[at]);
     all += length;
-    now.mean += length * Z[k];
+    now.mean += length * Z[at];
     now.current += length * here.insulators;
-    if (face.wet > 0) now.liquid = fmax(now.liquid, fabs(U + Z[k]) / (fmax(gap, 0) + plates->d));
+    if (face.wet > 0) now.liquid = fmax(now.liquid, fabs(U + Z[at]) / (fmax(gap, 0) + plates->d));
     now.fastest = fmax(now.fastest, fabs(here.gathers) / p->insulators);
   }
   now.mean = all > 0 ? now.mean / all : 0;

@@ -2,18 +2,27 @@
  * them, slowly, and stays when the voltage goes. Per area over the capacitance of both insulators it is the interface
  * voltage Z: the liquid has the field, and attracts, as if the electrodes had U + Z. docs/theory.md, section 25.
  *
- * Arrays are over the places of plates_step.h, [ZP_PLATES_PLACES N]. Their Z is the state; what it is where a step ends
- * follows from gap and voltage there, place by place.
+ * Faces may be of two kinds of patches, which lie beside each other at each place, at one gap, and conduct unequally:
+ * eq. (25.10). Interface voltages are the state, [patches][ZP_PLATES_PLACES N] over the places of plates_step.h; what
+ * they are where a step ends follows from gap and voltage there, patch by patch.
  */
 #ifndef ZP_ELECTRO_LEAK_H
 #define ZP_ELECTRO_LEAK_H
 
 #include "electro/plates_step.h"
 
+typedef struct ZpLeakPatch {
+  double share;       /* of the faces, 0 .. 1 */
+  double conductance; /* of both insulators per length of such faces, S/m */
+  double discharge;   /* conductivity over permittivity of the liquid there, 1/s */
+} ZpLeakPatch;
+
+enum { ZP_LEAK_PATCHES = 2 };
+
 typedef struct ZpLeakParams {
-  double insulators;  /* capacitance of both insulators per length, F/m */
-  double conductance; /* of both insulators per length, S/m */
-  double discharge;   /* conductivity over permittivity of the liquid, 1/s */
+  double insulators; /* capacitance of both insulators per length, F/m */
+  size_t patches;
+  ZpLeakPatch patch[ZP_LEAK_PATCHES]; /* shares are 1 together */
 } ZpLeakParams;
 
 /* Charge that has passed through the insulators over a step, per length, and how it goes with gap and voltage at the
@@ -30,13 +39,16 @@ typedef struct ZpLeakSide {
   double share, discharge;
 } ZpLeakSide;
 
-/* Faces at a place over a step. Where a bead ends, both sides lie beside each other, at one gap and one Z. */
+/* Faces of a patch at a place over a step. Where a bead ends, both sides lie beside each other, at one gap and one
+ * Z. */
 typedef struct ZpLeakFace {
   size_t place;
+  size_t at; /* of its Z */
+  const ZpLeakPatch *patch;
   int sides;
   ZpLeakSide side[2];
   double wet;                /* share of the place that liquid covers */
-  double part;               /* and that has electrodes: 1, of a pouch less where they end */
+  double part;               /* and that these faces are: of a patch, and of a pouch less where electrodes end */
   double g0, g1;             /* gaps at both ends, m */
   double length0, length1;   /* and lengths, m */
   double by_gap, by_voltage; /* how U + Z at the end goes with gap, V/m, and voltage there */
@@ -45,14 +57,22 @@ typedef struct ZpLeakFace {
 
 typedef struct ZpLeakEval {
   double *Z;        /* interface voltages where the span ends, V */
-  ZpLeakFace *face; /* [faces] of the last step, in the order of their places */
+  ZpLeakFace *face; /* [faces] of the last step, in the order of their patches and places */
   size_t faces;
   ZpPlatesMean *piece; /* work space */
   ZpPlatesStep work;
 } ZpLeakEval;
 
+/* How many interface voltages there are. */
+size_t zp_leak_state(const ZpLeakParams *params, const ZpPlatesParams *plates);
+
+/* Of these, those of a patch, [ZP_PLATES_PLACES N]. */
+static inline const double *zp_leak_of_patch(const ZpPlatesParams *plates, const double *Z, size_t patch) {
+  return Z + patch * ZP_PLATES_PLACES * plates->nodes;
+}
+
 /* Z is the caller's. */
-void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *eval, ZpArena *arena);
+void zp_leak_reserve(const ZpLeakParams *params, const ZpPlatesParams *plates, ZpLeakEval *eval, ZpArena *arena);
 
 /* A step. At an instant both ends are one, and h is 0. */
 typedef struct ZpLeakStep {

@@ -62,10 +62,10 @@ static ZpFilmEnds ends_of(const ZpModel *model, const ZpEval *e) {
   return (ZpFilmEnds){cover, e->open, {e->meniscus[0], e->meniscus[1]}};
 }
 
-/* The charge between insulators and liquid at a bead's end, as a voltage: that at the start of the step. */
-static double interface_at(const ZpModel *model, const ZpSpan *span, const ZpBeadPlace *at) {
+/* The charge of a patch between insulators and liquid at a bead's end, as a voltage: that at the start of the step. */
+static double interface_at(const ZpModel *model, const ZpSpan *span, size_t patch, const ZpBeadPlace *at) {
   if (!model->leaks) return 0;
-  const double *Z = zp_law_memory(model, &zp_term_leak, span->memory);
+  const double *Z = zp_leak_of_patch(&model->plates, zp_law_memory(model, &zp_term_leak, span->memory), patch);
   if (at->near == at->far) return Z[zp_plates_flat_place(at->near)];
   bool left = at->near < at->far;
   return Z[zp_plates_place_at(left ? at->near : at->far, left ? at->part : 1 - at->part)];
@@ -75,15 +75,18 @@ static double interface_at(const ZpModel *model, const ZpSpan *span, const ZpBea
 static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEval *e, int half) {
   const ZpFilmParams *film = &model->film;
   ZpBeadPlace at = zp_bead_place(film, half, e->reach[half]);
-  double Z = interface_at(model, span, &at);
   double gap = zp_bead_at(&at, e->plates_start.gap), H = zp_bead_thickness(film, &at, e->plates_start.gap);
   double moved = fmax(0.5 * span->h * zp_bead_at(&at, e->film.rate), -0.5 * H);
   double level = zp_term_level(model, &at, span->start);
   if (span->w && at.near != at.far) level += 0.5 * span->h * zp_term_level(model, &at, span->w);
-  double room = zp_term_meniscus_room(model, e->reach[half]).share, suction = model->bead.suction;
-  return 0.5 * room *
-         (zp_term_meniscus_head(model, suction, span->U0 + Z, gap + moved, H + moved, level) +
-          zp_term_meniscus_head(model, suction, span->U1 + Z, gap + moved, H + moved, level));
+  double room = zp_term_meniscus_room(model, e->reach[half]).share, suction = model->bead.suction, sum = 0;
+  for (size_t k = 0; k < model->leak.patches; k++) {
+    double Z = interface_at(model, span, k, &at);
+    sum += model->leak.patch[k].share *
+           (zp_term_meniscus_head(model, suction, span->U0 + Z, gap + moved, H + moved, level) +
+            zp_term_meniscus_head(model, suction, span->U1 + Z, gap + moved, H + moved, level));
+  }
+  return 0.5 * room * sum;
 }
 
 static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {

@@ -1,5 +1,5 @@
 /* Attraction between insulators and through a liquid that conduct: the plates law with the charge that has collected on
- * their faces, in place of `plates`. Eqs. (25.1) to (25.8). In equilibrium, where a span has no memory, there is
+ * their faces, in place of `plates`. Eqs. (25.1) to (25.10). In equilibrium, where a span has no memory, there is
  * none. */
 #include "term/term.h"
 
@@ -11,9 +11,9 @@ static bool acts(const ZpModel *model) {
   return model->leaks;
 }
 
-/* Interface voltages, place by place. */
+/* Interface voltages. */
 static size_t state(const ZpModel *model) {
-  return ZP_PLATES_PLACES * model->nodes;
+  return zp_leak_state(&model->leak, &model->plates);
 }
 
 static bool create(const ZpModel *model, ZpEval *e) {
@@ -109,7 +109,15 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
       ZP_MOTION_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),              \
                      "the charge of the faces is stepped with implicit steps")
 
-static const ZpRule rule[] = {ZP_LEAK(insulator.resistivity), ZP_LEAK(medium.resistivity)};
+static const ZpRule rule[] = {
+    ZP_LEAK(insulator.resistivity),
+    ZP_LEAK(medium.resistivity),
+    ZP_RULE_IF(PHYSICS, ZP_ABOVE(electro.leak_share, 0), ZP_UNSET(insulator.resistivity), ZP_SET(medium.resistivity),
+               "nothing conducts faster than what does not conduct"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(electro.leak_share, 0), ZP_SET(electro.leak_ratio), "these patches conduct faster by it"),
+    ZP_RULE(PHYSICS, ZP_SET(electro.leak_ratio), ZP_ABOVE(electro.leak_share, 0),
+            "without a share there are no such patches"),
+};
 #undef ZP_LEAK
 
 const ZpTerm zp_term_leak = {.name = "leak",
