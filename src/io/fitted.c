@@ -69,8 +69,7 @@ static ZpFittedKey *key_of(const Reader *reader, const ZpYamlItem *item, const c
     return NULL;
   }
   if (place == fitted->count)
-    fitted->key[fitted->count++] =
-        (ZpFittedKey){.key = key, .value = NAN, .error = NAN, .low = NAN, .high = NAN};
+    fitted->key[fitted->count++] = (ZpFittedKey){.key = key, .value = NAN, .error = NAN, .low = NAN, .high = NAN};
   return &fitted->key[place];
 }
 
@@ -235,7 +234,7 @@ static void write_key(const ZpFitted *fitted, size_t place, FILE *file) {
 
 /* A line of comment: "# note: TEXT". */
 static ZpStatus write_comment(FILE *file, const char *what, const char *text, ZpError *err) {
-  char *copy = strdup(text); /* names of columns may have any bytes */
+  char *copy = strdup(text); /* names of columns may have line ends */
   if (!copy) return zp_fail_memory(err);
   zp_text_clean(copy);
   fprintf(file, "# %s: %s\n", what, copy);
@@ -244,9 +243,10 @@ static ZpStatus write_comment(FILE *file, const char *what, const char *text, Zp
 }
 
 ZpStatus zp_fitted_write(const ZpFitted *fitted, const ZpResult *result, FILE *file, ZpError *err) {
-  fputs("# Values fitted by zipact calibrate. Another scenario takes them by base.file, and their joint distribution by\n"
-        "# sampling.tolerances: base.\n",
-        file);
+  fputs(
+      "# Values fitted by zipact calibrate. Another scenario takes them by base.file, and their joint distribution by\n"
+      "# sampling.tolerances: base.\n",
+      file);
   ZpStatus status = write_comment(file, zp_outcome_name(result->outcome), result->message, err);
   for (size_t i = 0; i < result->notes && status == ZP_OK; i++)
     status = write_comment(file, "note", result->note[i], err);

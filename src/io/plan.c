@@ -118,7 +118,7 @@ static ZpStatus correlate(ZpPlan *plan, const double *R, ZpError *err) {
   if (plan->design.indices)
     fail_joint(plan, "sampling.indices: Sobol indices are defined for independent keys; those of base.file are "
                      "correlated");
-  else if (!zp_joint_correlate(&plan->joint, R, &memory) && memory)
+  else if (!zp_together_correlate(&plan->joint, R, &memory) && memory)
     fail_joint(plan, "the correlations in base.file are not those of any distribution, or a key follows from others");
   else if (!memory)
     return zp_fail_memory(err);
@@ -130,7 +130,7 @@ static ZpStatus find_joint(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
   const size_t n = (size_t)plan->design.dimensions;
   double *R = calloc(n * n + 1, sizeof *R);
   bool correlated = false;
-  const bool memory = zp_joint_create(&plan->joint, plan->design.dimensions) && R;
+  const bool memory = zp_together_create(&plan->joint, plan->design.dimensions) && R;
   for (size_t v = 0, row = 0; memory && v < plan->variations; v++) {
     const ZpSlot *one = given->slot[plan->at[v]];
     if (one->spread.kind == ZP_DISTRIBUTION_NONE) continue;
@@ -204,7 +204,7 @@ ZpStatus zp_plan_make(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
 }
 
 void zp_plan_free(ZpPlan *plan) {
-  zp_joint_destroy(&plan->joint);
+  zp_together_destroy(&plan->joint);
   free(plan->memory);
   *plan = (ZpPlan){0};
 }
@@ -214,7 +214,7 @@ void zp_plan_values(const ZpPlan *plan, const ZpGiven *given, size_t index, doub
   size_t axis = plan->axes, together = 0;
   double drawn[ZP_SOBOL_DIMENSIONS];
   int dimension = plan->joint.dimensions;
-  zp_joint_draw(&plan->joint, &plan->design, sample, drawn);
+  zp_together_draw(&plan->joint, &plan->design, sample, drawn);
   index /= samples;
   for (size_t v = plan->variations; v-- > 0;) { /* backwards: the last list varies fastest */
     const ZpSlot *s = given->slot[plan->at[v]];

@@ -11,7 +11,7 @@
 #include "io/fitted.h"
 #include "io/names.h"
 #include "sample/design.h"
-#include "sample/joint.h"
+#include "sample/together.h"
 
 /* The given value of a key. */
 typedef struct ZpSlot {
@@ -42,12 +42,12 @@ typedef struct ZpPlan {
   size_t variations;
   int *axis; /* [axes] keys whose lists are combined: of those that vary together the last one */
   size_t axes;
-  bool *tied;      /* [given] varies together with others */
-  size_t together; /* length of their lists; 1: there are none */
-  ZpDesign design; /* of the distributions, */
-  ZpJoint joint;   /* and these, in key order */
-  size_t count;    /* cases */
-  ZpError problem; /* the error of the scenario as a whole, otherwise all 0 */
+  bool *tied;       /* [given] varies together with others */
+  size_t together;  /* length of their lists; 1: there are none */
+  ZpDesign design;  /* of the distributions, */
+  ZpTogether joint; /* and these, in key order */
+  size_t count;     /* cases */
+  ZpError problem;  /* the error of the scenario as a whole, otherwise all 0 */
   void *memory;
 } ZpPlan;
 

@@ -36,10 +36,10 @@ typedef struct Layer {
 
 /* The slots that apply, of all layers, and the cases. */
 typedef struct Held {
-  ZpSlot *below;     /* [ZP_KEYS] of base.file and materials; both layers override them. A value has no other place */
-  ZpFitted *fitted;  /* base.file; NULL: there is none, or it is wrong */
-  ZpError base;      /* why it is wrong; otherwise all 0 */
-  int line;          /* in which base.file was given */
+  ZpSlot *below;    /* [ZP_KEYS] of base.file and materials; both layers override them. A value has no other place */
+  ZpFitted *fitted; /* base.file; NULL: there is none, or it is wrong */
+  ZpError base;     /* why it is wrong; otherwise all 0 */
+  int line;         /* in which base.file was given */
   ZpGiven given;
   ZpPlan plan;
 } Held;
@@ -179,7 +179,8 @@ static ZpSlot slot_of_base(const ZpActuatorDef *def, const ZpFittedKey *fitted, 
   ZpSlot slot = {.key = fitted->key, .count = 1, .is_fitted = true, .spread = {.a = fitted->value}};
   if (def->sampling.tolerances != ZP_TOLERANCES_BASE) return slot;
   if (isnan(fitted->error))
-    fail_base(held, "sampling.tolerances = base: %s has no standard error in base.file; give it a value or a distribution",
+    fail_base(held,
+              "sampling.tolerances = base: %s has no standard error in base.file; give it a value or a distribution",
               key->name);
   else
     slot.spread = (ZpDistribution){ZP_DISTRIBUTION_NORMAL, fitted->value, fitted->error, key->min, key->max};
@@ -898,7 +899,8 @@ static ZpStatus fail_whole(const ZpScenario *s, ZpStatus status, const char *row
 static ZpStatus fail_base_of(const ZpScenario *s, const char *message, ZpError *err) {
   const ZpSource source = {.name = s->name};
   const bool of_file = s->name && slot_of(&s->file, ZP_KEY(base.file)) && !slot_of(&s->set, ZP_KEY(base.file));
-  return of_file ? zp_source_fail(&source, s->held.line, err, "%s", message) : zp_fail(err, ZP_BAD_INPUT, "%s", message);
+  return of_file ? zp_source_fail(&source, s->held.line, err, "%s", message)
+                 : zp_fail(err, ZP_BAD_INPUT, "%s", message);
 }
 
 /* Is the first case valid with the keys that the scenario gives itself, without base.file? */
@@ -910,8 +912,9 @@ static bool is_good_alone(const ZpScenario *s) {
   for (size_t i = given->count; list && i-- > 0;)
     if (!given->slot[i]->is_fitted && !given->slot[i]->text && zp_key_in_def(given->slot[i]->key))
       list[used++] = (ZpAssignment){given->slot[i]->key, given->slot[i]->value[0]};
-  bool good = list && zp_def_resolve(&def, list, used, NULL) == ZP_OK && zp_names_give(&s->names, &def, NULL) == ZP_OK &&
-              set_texts(s, &def, NULL) == ZP_OK && zp_study_check(zp_scenario_study(s), &def, NULL) == ZP_OK;
+  bool good = list && zp_def_resolve(&def, list, used, NULL) == ZP_OK &&
+              zp_names_give(&s->names, &def, NULL) == ZP_OK && set_texts(s, &def, NULL) == ZP_OK &&
+              zp_study_check(zp_scenario_study(s), &def, NULL) == ZP_OK;
   zp_def_clear(&def);
   free(list);
   return good;

@@ -1,4 +1,4 @@
-#include "sample/joint.h"
+#include "sample/together.h"
 
 #include <stdlib.h>
 
@@ -7,16 +7,16 @@
 /* A score whose standard deviation, given the others, is smaller than this follows from them. */
 static const double least_deviation = 1e-6;
 
-bool zp_joint_create(ZpJoint *joint, int dimensions) {
-  *joint = (ZpJoint){.dimensions = dimensions};
+bool zp_together_create(ZpTogether *joint, int dimensions) {
+  *joint = (ZpTogether){.dimensions = dimensions};
   joint->each = calloc((size_t)dimensions + 1, sizeof *joint->each);
   return joint->each != NULL;
 }
 
-void zp_joint_destroy(ZpJoint *joint) {
+void zp_together_destroy(ZpTogether *joint) {
   if (joint->correlated) zp_skyline_destroy(&joint->root);
   free(joint->each);
-  *joint = (ZpJoint){0};
+  *joint = (ZpTogether){0};
 }
 
 static bool is_proper(const ZpSkyline *root) {
@@ -25,7 +25,7 @@ static bool is_proper(const ZpSkyline *root) {
   return true;
 }
 
-bool zp_joint_correlate(ZpJoint *joint, const double *R, bool *memory) {
+bool zp_together_correlate(ZpTogether *joint, const double *R, bool *memory) {
   static const size_t first[ZP_SOBOL_DIMENSIONS] = {0};
   const size_t n = (size_t)joint->dimensions;
   *memory = joint->correlated = zp_skyline_create(&joint->root, n, first);
@@ -35,7 +35,7 @@ bool zp_joint_correlate(ZpJoint *joint, const double *R, bool *memory) {
   return *memory && zp_skyline_factor(&joint->root) && is_proper(&joint->root);
 }
 
-void zp_joint_draw(const ZpJoint *joint, const ZpDesign *design, size_t sample, double *value) {
+void zp_together_draw(const ZpTogether *joint, const ZpDesign *design, size_t sample, double *value) {
   double score[ZP_SOBOL_DIMENSIONS] = {0};
   for (int i = 0; i < joint->dimensions; i++) {
     const ZpDistribution *d = &joint->each[i];
