@@ -235,7 +235,7 @@ static Moments moments_of(const ZpTogether *joint, const ZpDesign *design, doubl
  * independent samples are N^-1/2, and those of a covariance (1 + r^2)^1/2 as large; the other designs are better. */
 TESTS(joint_has_its_moments, 0, 3) {
   enum { SAMPLES = 1 << 14 };
-  static const double error[] = {[ZP_SAMPLING_SOBOL] = 8e-4,            /* 2.7e-4 measured */
+  static const double error[] = {[ZP_SAMPLING_SOBOL] = 8e-4,             /* 2.7e-4 measured */
                                  [ZP_SAMPLING_LATIN_HYPERCUBE] = 1.5e-2, /* 5.1e-3 */
                                  [ZP_SAMPLING_RANDOM] = 5e-2};           /* 2.0e-2 */
   const ZpDesign design = design_of((ZpSampling)_i, SAMPLES, THREE, false);

@@ -268,7 +268,7 @@ static double number_of(const ZpResult *result, int key, const char *which) {
   return zp_result_get(result, name);
 }
 
-/* What a fit of these keys has found. */
+/* The numbers of a fit of these keys. */
 static ZpFitted fitted_of(const ZpResult *result, const int *key, size_t count) {
   ZpFitted fitted = {.count = count, .outcome = result->outcome};
   char which[ZP_VALUE_SIZE];
@@ -293,7 +293,7 @@ ZpStatus zp_fitted_report(const ZpReport *report, ZpError *err) {
   const ZpResult *result = zp_report_single(report);
   ZpActuatorDef def = {0};
   int key[ZP_FITTED_MOST], count = 0;
-  const bool fits = result && result->study == ZP_STUDY_CALIBRATE;
+  const bool fits = result && zp_study_shows(result->study) == ZP_SHOWS_fit;
   if (fits && zp_scenario_def(report->scenario, 0, &def, NULL) == ZP_OK)
     zp_keys_named("calibrate.fit", def.calibrate.fit, ZP_FITTED_MOST, key, &count, NULL);
   zp_def_clear(&def);

@@ -142,7 +142,7 @@ static ZpActuatorDef sources_of(const ZpGiven *given) {
   return def;
 }
 
-/* What is wrong with the values of base.file, for the message of a scenario. */
+/* Note the first mistake in base.file, for the message of a scenario. */
 __attribute__((format(printf, 2, 3))) static void fail_base(Held *held, const char *format, ...) {
   va_list args;
   char reason[sizeof held->base.message];
@@ -187,7 +187,7 @@ static ZpSlot slot_of_base(const ZpActuatorDef *def, const ZpFittedKey *fitted, 
   return slot;
 }
 
-/* What a key has that neither layer gives, from base.file or else from a material: false if it has nothing. */
+/* The slot of a key that neither layer gives, from base.file or else from a material; false if it has none. */
 static bool find_below(const ZpActuatorDef *def, int key, Held *held, ZpSlot *slot) {
   const size_t place = held->fitted ? zp_fitted_place(held->fitted, key) : 0;
   const bool draws = def->sampling.tolerances == ZP_TOLERANCES_MATERIALS;
