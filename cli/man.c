@@ -74,6 +74,7 @@ static const Entry files[] = {
     {"table.csv", "the time series or branch, or one row per case of a sweep"},
     {"likelihood.csv, regions.csv", "calibrate: profiles of the fitted keys, joint regions of pairs"},
     {"results.h5", "the same and the shapes, with units"},
+    {"fitted.yaml", "of `calibrate`: the fitted values with their errors, for other scenarios (`base.file`)"},
     {"journal.sqlite", "of a sweep: a row per finished case, for `--resume`"},
     {"shapes.pvd, shapes/, field.vts", "for ParaView"},
     {"checkpoint.zps", "the last state of a run in time, from which another run can resume (`initial.file`)"},

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
-PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "paper.md"]
+PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "phone-video.md", "paper.md"]
 PICTURES = {
     "unlike-ribbons.svg": "unlike/plots/shapes.svg",
     "curved.svg": "curved-rest/plots/shapes.svg",
@@ -32,6 +32,8 @@ PICTURES = {
     "sensitivity-zip.svg": "counts-zip/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
     "plan.svg": "plan/plots/plan.svg",
+    "video.svg": "video/plots/fit.svg",
+    "video-margin.svg": "after/plots/distribution.svg",
     "fits.svg": "bench/plots/fits.svg",
     "likelihood.svg": "bench/plots/likelihood.svg",
     "regions.svg": "bench/plots/regions.svg",

@@ -35,7 +35,7 @@ MAY_INCLUDE = {
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "run": ["rest", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["run", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "sample": ["base"],
+    "sample": ["math", "base"],
     "fmu": ["run", "actuator", "drive", "def", "base"],
     "fmu/export": ["fmu", "run", "actuator", "drive", "def", "base"],
     "io": ["sample", "study", "def", "base"],

@@ -436,6 +436,8 @@ static void write_files(void) {
   write_checkpoint("late.zps", "2ms");
   write_strokes("soft.csv", 100e9, 0);
   write_strokes("stiff.csv", 400e9, 0);
+  write_file("soft.yaml", "ribbon.young_modulus: 100 GPa\nfitted: {outcome: converged}\n");
+  write_file("stiff.yaml", "ribbon.young_modulus: 400 GPa\nfitted: {outcome: converged}\n");
   write_strokes("raised.csv", 100e9, 1);
   write_file("light.csv", "load_mg\n5\n5\n5\n5\n");
   write_file("heavy.csv", "load_mg\n10\n");

@@ -6,6 +6,7 @@
 #include "sample/distribution.h"
 #include "sample/sobol.h"
 #include "sample/statistics.h"
+#include "sample/together.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -177,13 +178,140 @@ TEST(normal_quantile_inverts_erfc) {
 }
 
 TEST(quantiles_of_distributions) {
-  const ZpDistribution normal = {ZP_DISTRIBUTION_NORMAL, 50, 2}, lognormal = {ZP_DISTRIBUTION_LOGNORMAL, 50, 0.1},
-                       uniform = {ZP_DISTRIBUTION_UNIFORM, 2, 6}, by_factors = {ZP_DISTRIBUTION_LOG_UNIFORM, 1, 100};
+  const ZpDistribution normal = {.kind = ZP_DISTRIBUTION_NORMAL, .a = 50, .b = 2},
+                       lognormal = {.kind = ZP_DISTRIBUTION_LOGNORMAL, .a = 50, .b = 0.1},
+                       uniform = {.kind = ZP_DISTRIBUTION_UNIFORM, .a = 2, .b = 6},
+                       by_factors = {.kind = ZP_DISTRIBUTION_LOG_UNIFORM, .a = 1, .b = 100};
   const double one = 0.5 * erfc(-1 / sqrt(2)); /* one standard deviation above the mean */
   ck_near(zp_quantile(&normal, one), 52, 1e-14);
   ck_near(zp_quantile(&lognormal, one), 50 * exp(0.1), 1e-14);
   ck_near(zp_quantile(&uniform, 0.25), 3, 1e-15);
   ck_near(zp_quantile(&by_factors, 0.5), 10, 1e-14);
+}
+
+/* -- distributions of several keys together ---------------------------------------------------------- */
+
+enum { THREE = 3 };
+
+static const double means[THREE] = {200, -5, 0.3}, deviations[THREE] = {4, 0.02, 1e-3};
+static const double correlations[THREE * THREE] = {1, 0, 0, -0.9, 1, 0, 0.5, -0.7, 1}; /* the lower triangle */
+
+/* Three normal distributions with these correlations, or none; cut 0: they are not cut. */
+static ZpTogether joint_of(const double *R, double cut) {
+  ZpTogether joint;
+  bool memory;
+  ck_assert(zp_together_create(&joint, THREE));
+  for (int i = 0; i < THREE; i++)
+    joint.each[i] = (ZpDistribution){ZP_DISTRIBUTION_NORMAL, means[i], deviations[i], means[i] - cut * deviations[i],
+                                     means[i] + cut * deviations[i]};
+  if (R) ck_assert(zp_together_correlate(&joint, R, &memory) && memory);
+  return joint;
+}
+
+/* Mean and covariance of the standardised values of all samples; how many lie beyond a score of `cut`. */
+typedef struct Moments {
+  double mean[THREE], covariance[THREE][THREE];
+  size_t beyond;
+} Moments;
+
+static Moments moments_of(const ZpTogether *joint, const ZpDesign *design, double cut) {
+  Moments m = {0};
+  const double share = 1.0 / (double)design->count;
+  for (size_t s = 0; s < design->count; s++) {
+    double value[THREE];
+    zp_together_draw(joint, design, s, value);
+    for (int i = 0; i < THREE; i++) {
+      value[i] = (value[i] - means[i]) / deviations[i];
+      m.mean[i] += share * value[i];
+      m.beyond += fabs(value[i]) > cut;
+      for (int k = 0; k <= i; k++)
+        m.covariance[i][k] += share * value[i] * value[k];
+    }
+  }
+  return m;
+}
+
+/* (12.13): means, standard deviations and correlations are those given, for each design. The errors of a mean of N
+ * independent samples are N^-1/2, and those of a covariance (1 + r^2)^1/2 as large; the other designs are better. */
+TESTS(joint_has_its_moments, 0, 3) {
+  enum { SAMPLES = 1 << 14 };
+  static const double error[] = {[ZP_SAMPLING_SOBOL] = 8e-4,             /* 2.7e-4 measured */
+                                 [ZP_SAMPLING_LATIN_HYPERCUBE] = 1.5e-2, /* 5.1e-3 */
+                                 [ZP_SAMPLING_RANDOM] = 5e-2};           /* 2.0e-2 */
+  const ZpDesign design = design_of((ZpSampling)_i, SAMPLES, THREE, false);
+  ZpTogether joint = joint_of(correlations, 0);
+  const Moments m = moments_of(&joint, &design, INFINITY);
+  for (int i = 0; i < THREE; i++) {
+    ck_below(fabs(m.mean[i]), error[_i]);
+    for (int k = 0; k <= i; k++)
+      ck_below(fabs(m.covariance[i][k] - correlations[THREE * i + k]), error[_i]);
+  }
+  zp_together_destroy(&joint);
+}
+
+/* Without correlations, and for the first key with them, a joint distribution is the plain one, bit for bit. */
+TEST(joint_of_one_is_plain) {
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 64, THREE, false);
+  ZpTogether apart = joint_of(NULL, 0), together = joint_of(correlations, 0);
+  const double none[THREE * THREE] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  ZpTogether idle = joint_of(none, 0);
+  for (size_t s = 0; s < 64; s++) {
+    double value[THREE], first[THREE], same[THREE];
+    zp_together_draw(&apart, &design, s, value);
+    zp_together_draw(&together, &design, s, first);
+    zp_together_draw(&idle, &design, s, same);
+    ck_assert_double_eq(first[0], value[0]);
+    ck_assert_double_ne(first[1], value[1]);
+    for (int i = 0; i < THREE; i++) {
+      ck_assert_double_eq(value[i], zp_quantile(&apart.each[i], zp_design_share(&design, s, i)));
+      ck_assert_double_eq(same[i], value[i]);
+    }
+  }
+  zp_together_destroy(&apart);
+  zp_together_destroy(&together);
+  zp_together_destroy(&idle);
+}
+
+/* Cut at c standard deviations, the variance is 1 - 2 c phi(c) / (2 Phi(c) - 1), and every share of it is a share of
+ * what is left. A cut far away changes no bit. */
+TEST(normal_distribution_is_cut) {
+  enum { SAMPLES = 1 << 14 };
+  const double c = 1.5, density = exp(-c * c / 2) / sqrt(2 * pi), left = erf(c / sqrt(2));
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, SAMPLES, THREE, false);
+  ZpTogether joint = joint_of(NULL, c), far = joint_of(NULL, 1000), whole = joint_of(NULL, 0);
+  const Moments m = moments_of(&joint, &design, c);
+  for (int i = 0; i < THREE; i++) {
+    ck_below(fabs(m.mean[i]), 2e-6);                                 /* 6.5e-7 measured */
+    ck_near(m.covariance[i][i], 1 - 2 * c * density / left, 1.2e-5); /* 3.8e-6 */
+    ck_near(zp_quantile(&joint.each[i], 0.25), means[i] + deviations[i] * zp_normal_quantile(0.5 - left / 4), 1e-12);
+    ck_assert_double_eq(zp_quantile(&far.each[i], 0.3), zp_quantile(&whole.each[i], 0.3));
+  }
+  zp_together_destroy(&joint);
+  zp_together_destroy(&far);
+  zp_together_destroy(&whole);
+}
+
+/* No value leaves its range where another one pushes it out, either. */
+TEST(correlated_values_are_cut) {
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 4096, THREE, false);
+  ZpTogether joint = joint_of(correlations, 1), whole = joint_of(correlations, 0);
+  ck_assert_uint_eq(moments_of(&joint, &design, 1 - 1e-9).beyond, 0); /* not at its ends, either */
+  ck_assert_uint_gt(moments_of(&whole, &design, 1).beyond, 1000);
+  zp_together_destroy(&joint);
+  zp_together_destroy(&whole);
+}
+
+/* Correlations that no distribution has, or that tie a key to another one, are refused. */
+TEST(impossible_correlations_are_refused) {
+  static const double impossible[THREE * THREE] = {1, 0, 0, 0.9, 1, 0, 0.9, -0.9, 1},
+                                         tied[THREE * THREE] = {1, 0, 0, 1 - 1e-13, 1, 0, 0, 0, 1};
+  bool memory;
+  ZpTogether joint = joint_of(NULL, 0);
+  ck_assert(!zp_together_correlate(&joint, impossible, &memory) && memory);
+  zp_together_destroy(&joint);
+  joint = joint_of(NULL, 0);
+  ck_assert(!zp_together_correlate(&joint, tied, &memory) && memory);
+  zp_together_destroy(&joint);
 }
 
 /* 1 .. 101 in random order, and three missing values. */

@@ -87,9 +87,10 @@ for key in keys:
 for example in sorted(set(repository.glob("examples/**/*.yaml")) - set(repository.glob("examples/extend/**/*.yaml"))):
     document = example.read_text(encoding="utf-8")
     line = document.splitlines()[0]
-    ok("%s begins with the modeline" % example.name, line.startswith("# yaml-language-server: $schema="))
     named = (example.parent / line.partition("=")[2]).resolve()
-    ok("%s names docs/scenario.schema.json" % example.name, named == committed.resolve())
+    if "\nfitted:\n" not in document:  # which calibrate writes
+        ok("%s begins with the modeline" % example.name, line.startswith("# yaml-language-server: $schema="))
+        ok("%s names docs/scenario.schema.json" % example.name, named == committed.resolve())
     ok("%s: %s" % (example.name, fault(document)), not fault(document))
 ok("the starter scenario: %s" % fault(printed("keys", "--yaml")), not fault(printed("keys", "--yaml")))
 

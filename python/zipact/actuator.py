@@ -54,7 +54,7 @@ GROUPS = {"body": "bodies", "joint": "joints", "member": "members", "spring": "s
 KEYS = Keys({row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()})
 
 SEVERAL_FILES = ("data.file", "plan.candidates")
-FILES = (*SEVERAL_FILES, "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
+FILES = (*SEVERAL_FILES, "drive.file", "setpoint.file", "initial.file", "base.file")  # kept as absolute paths, as in a scenario
 
 
 def key_name(keyword: str) -> str:

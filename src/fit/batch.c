@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "fit/case.h"
+#include "fit/data.h"
 #include "io/guard.h"
 #include "io/plan.h"
 #include "io/report.h"
@@ -76,7 +77,8 @@ static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResu
                     ZpResult **result, ZpError *err) {
   ZpStudy study = zp_scenario_study(scenario);
   const ZpStudyInput input = {.neighbour = before};
-  if (before && before->limits) return zp_study_run_limited(study, def, &input, hooks, result, err);
+  if (before && before->limits)
+    return zp_base_note(zp_study_run_limited(study, def, &input, hooks, result, err), def, result, err);
   return zp_data_study_run(study, def, hooks, result, err);
 }
 

@@ -10,6 +10,7 @@
 #include "fit/reference.h"
 #include "fit/time_limit.h"
 #include "io/drive_table.h"
+#include "io/fitted.h"
 
 /* Each function reads the files of a definition and, unless `result` is NULL, runs the study with them. */
 
@@ -151,6 +152,19 @@ static bool needs_no_file(ZpStudy study, const ZpActuatorDef *def) {
          *def->data.file == 0 && !zp_def_takes_table(def) && def->initial.state != ZP_INITIAL_CHECKPOINT;
 }
 
+ZpStatus zp_base_note(ZpStatus status, const ZpActuatorDef *def, ZpResult **result, ZpError *err) {
+  ZpFitted fitted;
+  if (status != ZP_OK || *def->base.file == 0) return status;
+  status = zp_fitted_read(def->base.file, &fitted, err);
+  if (status == ZP_OK) {
+    zp_fitted_note(&fitted, def->base.file, def->sampling.tolerances == ZP_TOLERANCES_BASE, *result);
+    return ZP_OK;
+  }
+  zp_result_destroy(*result);
+  *result = NULL;
+  return status;
+}
+
 /* Wrong keys are reported before their files are read; a missing file is reported by the study. */
 ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
                            ZpError *err) {
@@ -160,5 +174,5 @@ ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHook
   ZpTimeLimit limit;
   status = with_files[study](study, def, zp_time_limit_begin(&limit, def, hooks), result, err);
   if (status == ZP_OK) zp_time_limit_end(&limit, *result);
-  return status;
+  return zp_base_note(status, def, result, err);
 }

@@ -412,6 +412,9 @@ static json_t *make_schema(void) {
                              "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
                              "definitions", definitions);
   merge(&schema, group_schema("", 0));
+  json_t *fitted = json_pack("{s:s, s:s}", "type", "object", "description",
+                             "Of a file that calibrate has written: how sure its values are. Read by base.file.");
+  if (json_object_set_new(json_object_get(schema, "properties"), "fitted", fitted)) drop(&schema);
   for (int kind = 0; schema && kind < ZP_CALLED_KINDS; kind++)
     add_named(&schema, (ZpInstanceKind)kind);
   return schema;

@@ -15,6 +15,7 @@
 #include "def/def.h"
 #include "io/range.h"
 #include "io/value.h"
+#include "sample/sobol.h"
 
 enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
 
@@ -99,6 +100,54 @@ static void find_design(ZpPlan *plan, const ZpGiven *given) {
   if (plan->design.dimensions == 0) plan->design = (ZpDesign){.count = 1};
 }
 
+/* The correlation of the errors of two keys; 0 unless the same fit has found both. */
+static double correlation_of(const ZpGiven *given, const ZpSlot *one, const ZpSlot *two) {
+  if (one == two) return 1;
+  if (!one->is_fitted || !two->is_fitted) return 0;
+  const size_t a = zp_fitted_place(given->fitted, one->key), b = zp_fitted_place(given->fitted, two->key);
+  const double known = zp_fitted_correlation(given->fitted, a, b);
+  return isnan(known) ? 0 : known;
+}
+
+static void fail_joint(ZpPlan *plan, const char *what) {
+  if (!plan->problem.status) zp_fail(&plan->problem, ZP_BAD_INPUT, "sampling.tolerances = base: %s", what);
+}
+
+static ZpStatus correlate(ZpPlan *plan, const double *R, ZpError *err) {
+  bool memory;
+  if (plan->design.indices)
+    fail_joint(plan, "sampling.indices: Sobol indices are defined for independent keys; those of base.file are "
+                     "correlated");
+  else if (!zp_together_correlate(&plan->joint, R, &memory) && memory)
+    fail_joint(plan, "the correlations in base.file are not those of any distribution, or a key follows from others");
+  else if (!memory)
+    return zp_fail_memory(err);
+  return ZP_OK;
+}
+
+/* The distributions of all keys that have one. */
+static ZpStatus find_joint(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
+  const size_t n = (size_t)plan->design.dimensions;
+  double *R = calloc(n * n + 1, sizeof *R);
+  bool correlated = false;
+  const bool memory = zp_together_create(&plan->joint, plan->design.dimensions) && R;
+  for (size_t v = 0, row = 0; memory && v < plan->variations; v++) {
+    const ZpSlot *one = given->slot[plan->at[v]];
+    if (one->spread.kind == ZP_DISTRIBUTION_NONE) continue;
+    for (size_t w = 0, column = 0; w <= v; w++) {
+      const ZpSlot *two = given->slot[plan->at[w]];
+      if (two->spread.kind == ZP_DISTRIBUTION_NONE) continue;
+      R[row * n + column] = correlation_of(given, one, two);
+      correlated |= row != column && R[row * n + column] != 0;
+      column++;
+    }
+    plan->joint.each[row++] = one->spread;
+  }
+  ZpStatus status = !memory ? zp_fail_memory(err) : correlated ? correlate(plan, R, err) : ZP_OK;
+  free(R);
+  return status;
+}
+
 static ZpStatus count_cases(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
   size_t values = 0, cases = 1;
   for (size_t v = 0, axis = 0; v < plan->variations; v++) {
@@ -150,10 +199,12 @@ ZpStatus zp_plan_make(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
   find_tied(plan, given);
   find_axes(plan, given);
   find_design(plan, given);
-  return count_cases(plan, given, err);
+  status = count_cases(plan, given, err);
+  return status == ZP_OK ? find_joint(plan, given, err) : status;
 }
 
 void zp_plan_free(ZpPlan *plan) {
+  zp_together_destroy(&plan->joint);
   free(plan->memory);
   *plan = (ZpPlan){0};
 }
@@ -161,13 +212,15 @@ void zp_plan_free(ZpPlan *plan) {
 void zp_plan_values(const ZpPlan *plan, const ZpGiven *given, size_t index, double *value) {
   const size_t samples = zp_design_samples(&plan->design), sample = index % samples;
   size_t axis = plan->axes, together = 0;
-  int dimension = plan->design.dimensions;
+  double drawn[ZP_SOBOL_DIMENSIONS];
+  int dimension = plan->joint.dimensions;
+  zp_together_draw(&plan->joint, &plan->design, sample, drawn);
   index /= samples;
   for (size_t v = plan->variations; v-- > 0;) { /* backwards: the last list varies fastest */
     const ZpSlot *s = given->slot[plan->at[v]];
     const bool is_tied = plan->tied[plan->at[v]];
     if (s->spread.kind != ZP_DISTRIBUTION_NONE) {
-      value[v] = zp_rounded(zp_quantile(&s->spread, zp_design_share(&plan->design, sample, --dimension)));
+      value[v] = zp_rounded(drawn[--dimension]);
       continue;
     }
     const bool is_axis = axis > 0 && plan->axis[axis - 1] == s->key;

@@ -8,9 +8,10 @@
 #include <zipact/io.h>
 
 #include "def/check.h"
+#include "io/fitted.h"
 #include "io/names.h"
 #include "sample/design.h"
-#include "sample/distribution.h"
+#include "sample/together.h"
 
 /* The given value of a key. */
 typedef struct ZpSlot {
@@ -21,6 +22,7 @@ typedef struct ZpSlot {
   bool is_list;          /* it is a list, of any length: a column in the table */
   bool is_bare;          /* the key has a unit, the value was given without one */
   char *text;            /* value of a text key, whose number is NAN; otherwise NULL */
+  bool is_fitted;        /* it is of base.file */
   ZpDistribution spread; /* distribution of a key whose values are drawn */
 } ZpSlot;
 
@@ -28,6 +30,7 @@ typedef struct ZpSlot {
 typedef struct ZpGiven {
   const ZpSlot **slot;
   size_t count;
+  const ZpFitted *fitted; /* the errors of its keys with `is_fitted` are correlated; NULL: there are none */
 } ZpGiven;
 
 /* The slot of a key; NULL: it is not given. */
@@ -39,11 +42,12 @@ typedef struct ZpPlan {
   size_t variations;
   int *axis; /* [axes] keys whose lists are combined: of those that vary together the last one */
   size_t axes;
-  bool *tied;      /* [given] varies together with others */
-  size_t together; /* length of their lists; 1: there are none */
-  ZpDesign design; /* of the distributions */
-  size_t count;    /* cases */
-  ZpError problem; /* the error of the scenario as a whole, otherwise all 0 */
+  bool *tied;       /* [given] varies together with others */
+  size_t together;  /* length of their lists; 1: there are none */
+  ZpDesign design;  /* of the distributions, */
+  ZpTogether joint; /* and these, in key order */
+  size_t count;     /* cases */
+  ZpError problem;  /* the error of the scenario as a whole, otherwise all 0 */
   void *memory;
 } ZpPlan;
 

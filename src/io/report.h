@@ -100,6 +100,7 @@ ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
+ZpStatus zp_fitted_report(const ZpReport *report, ZpError *err);
 
 /* Pictures: first the pictures of an earlier report are removed, and scripts and data of this one are written. When all
  * numbers are on the disk, gnuplot draws. A notice reports pictures that cannot be drawn. */

@@ -1,7 +1,8 @@
 /* Scenarios: values for keys, some of them lists, from a file and from --set.
  *
  * Two layers of slots, one slot per given key, hold the values of the file and those of --set; the second layer wins,
- * whatever the order of calls. A third layer, below both, has the distributions of materials for sampling.tolerances.
+ * whatever the order of calls. A third layer, below both, has the values of base.file and, for sampling.tolerances, the
+ * distributions of materials.
  * Nothing is resolved before a Def is requested, so the position of `preset` in the file does not matter. A text is
  * first read into slots of its own. Then the layer that it changes is built again, with all that follows from the
  * layers. If nothing fails, they replace the present ones. io/plan.h lists the Defs of a scenario. Their common values
@@ -35,7 +36,10 @@ typedef struct Layer {
 
 /* The slots that apply, of all layers, and the cases. */
 typedef struct Held {
-  ZpSlot *drawn; /* of materials; both layers override them. A value is its own distribution */
+  ZpSlot *below;    /* [ZP_KEYS] of base.file and materials; both layers override them. A value has no other place */
+  ZpFitted *fitted; /* base.file; NULL: there is none, or it is wrong */
+  ZpError base;     /* why it is wrong; otherwise all 0 */
+  int line;         /* in which base.file was given */
   ZpGiven given;
   ZpPlan plan;
 } Held;
@@ -126,65 +130,127 @@ static bool put_slot(Layer *layer, const ZpSlot *slot) {
   return true;
 }
 
-/* A definition with the given materials and sampling.tolerances, otherwise with defaults. */
-static ZpActuatorDef materials_of(const ZpGiven *given) {
+/* A definition with the given materials, base.file and sampling.tolerances, otherwise with defaults. */
+static ZpActuatorDef sources_of(const ZpGiven *given) {
   ZpActuatorDef def = zp_actuator_def_default();
   for (size_t i = 0; i < given->count; i++) {
-    const int key = given->slot[i]->key;
-    const bool asked = zp_key_is_material(key) || strcmp(zp_key(key)->name, "sampling.tolerances") == 0;
-    if (asked) zp_def_set(&def, key, given->slot[i]->value[0], NULL);
+    const ZpSlot *slot = given->slot[i];
+    const bool asked = zp_key_is_material(slot->key) || slot->key == ZP_KEY(sampling.tolerances);
+    if (asked) zp_def_set(&def, slot->key, slot->value[0], NULL);
+    if (slot->key == ZP_KEY(base.file)) zp_def_set_text(&def, slot->key, slot->text, NULL);
   }
   return def;
 }
 
-/* Give the distribution of a material to keys that it fills and that are not given. */
-static bool draw_materials(Held *held) {
-  const ZpActuatorDef def = materials_of(&held->given);
-  if (def.sampling.tolerances != ZP_TOLERANCES_MATERIALS) return true;
-  held->drawn = calloc(ZP_KEYS, sizeof *held->drawn);
-  if (!held->drawn) return false;
+/* Note the first mistake in base.file, for the message of a scenario. */
+__attribute__((format(printf, 2, 3))) static void fail_base(Held *held, const char *format, ...) {
+  va_list args;
+  char reason[sizeof held->base.message];
+  va_start(args, format);
+  vsnprintf(reason, sizeof reason, format, args);
+  va_end(args);
+  if (held->base.status == ZP_OK) zp_fail(&held->base, ZP_BAD_INPUT, "%s", reason);
+}
+
+/* Read base.file. A mistake is reported when a Def is requested, since a later --set may mend it. */
+static ZpStatus read_base(const ZpActuatorDef *def, Held *held, ZpError *err) {
+  ZpError reason;
+  const ZpSlot *slot = zp_given(&held->given, ZP_KEY(base.file));
+  held->line = slot ? slot->line : 0;
+  if (*def->base.file == 0) {
+    if (def->sampling.tolerances == ZP_TOLERANCES_BASE)
+      fail_base(held, "sampling.tolerances = base: base.file is not given; name the fitted.yaml of a calibrate");
+    return ZP_OK;
+  }
+  held->fitted = calloc(1, sizeof *held->fitted);
+  if (!held->fitted) return zp_fail_memory(err);
+  ZpStatus status = zp_fitted_read(def->base.file, held->fitted, &reason);
+  if (status == ZP_OK) return ZP_OK;
+  free(held->fitted);
+  held->fitted = NULL;
+  if (status != ZP_BAD_INPUT) return zp_fail(err, status, "base.file: %s", reason.message);
+  fail_base(held, "base.file: %s", reason.message);
+  return ZP_OK;
+}
+
+/* The slot of a key that base.file sets. */
+static ZpSlot slot_of_base(const ZpActuatorDef *def, const ZpFittedKey *fitted, Held *held) {
+  const ZpKey *key = zp_key(fitted->key);
+  ZpSlot slot = {.key = fitted->key, .count = 1, .is_fitted = true, .spread = {.a = fitted->value}};
+  if (def->sampling.tolerances != ZP_TOLERANCES_BASE) return slot;
+  if (isnan(fitted->error))
+    fail_base(held,
+              "sampling.tolerances = base: %s has no standard error in base.file; give it a value or a distribution",
+              key->name);
+  else
+    slot.spread = (ZpDistribution){ZP_DISTRIBUTION_NORMAL, fitted->value, fitted->error, key->min, key->max};
+  return slot;
+}
+
+/* The slot of a key that neither layer gives, from base.file or else from a material; false if it has none. */
+static bool find_below(const ZpActuatorDef *def, int key, Held *held, ZpSlot *slot) {
+  const size_t place = held->fitted ? zp_fitted_place(held->fitted, key) : 0;
+  const bool draws = def->sampling.tolerances == ZP_TOLERANCES_MATERIALS;
+  const ZpMaterialValue *filled = draws ? zp_material_value(def, key) : NULL;
+  if (held->fitted && place < held->fitted->count)
+    *slot = slot_of_base(def, &held->fitted->key[place], held);
+  else if (filled)
+    *slot = (ZpSlot){
+        .key = key, .count = 1, .spread = {.kind = ZP_DISTRIBUTION_LOGNORMAL, .a = filled->value, .b = filled->spread}};
+  else
+    return false;
+  return true;
+}
+
+/* Add what is below both layers to the given slots. */
+static ZpStatus add_below(Held *held, ZpError *err) {
+  const ZpActuatorDef def = sources_of(&held->given);
+  ZpStatus status = read_base(&def, held, err);
+  if (status != ZP_OK || (!held->fitted && def.sampling.tolerances != ZP_TOLERANCES_MATERIALS)) return status;
   const ZpGiven given = held->given;
   size_t at = 0;
-  held->given = (ZpGiven){calloc(given.count + ZP_KEYS, sizeof(ZpSlot *)), 0};
-  for (int i = 0; held->given.slot && i < ZP_KEYS; i++) {
-    const ZpMaterialValue *filled = zp_material_value(&def, i);
+  held->below = calloc(ZP_KEYS, sizeof *held->below);
+  held->given = (ZpGiven){calloc(given.count + ZP_KEYS, sizeof(ZpSlot *)), 0, held->fitted};
+  const bool memory = held->below && held->given.slot;
+  for (int i = 0; memory && i < ZP_KEYS; i++) {
     for (; at < given.count && zp_key_order(given.slot[at]->key, i) < 0; at++)
       held->given.slot[held->given.count++] = given.slot[at];
-    if (!filled || (at < given.count && given.slot[at]->key == i)) continue;
-    ZpSlot *slot = &held->drawn[i];
-    *slot = (ZpSlot){.key = i, .count = 1, .spread = {ZP_DISTRIBUTION_LOGNORMAL, filled->value, filled->spread}};
+    ZpSlot *slot = &held->below[i];
+    if ((at < given.count && given.slot[at]->key == i) || !find_below(&def, i, held, slot)) continue;
     slot->value = &slot->spread.a;
     held->given.slot[held->given.count++] = slot;
   }
-  for (; held->given.slot && at < given.count; at++)
+  for (; memory && at < given.count; at++)
     held->given.slot[held->given.count++] = given.slot[at];
   free(given.slot);
-  return held->given.slot != NULL;
+  return memory ? ZP_OK : zp_fail_memory(err);
 }
 
 /* --set wins over the file. */
-static bool hold(const Layer *file, const Layer *set, Held *held) {
+static ZpStatus hold(const Layer *file, const Layer *set, Held *held, ZpError *err) {
   ZpGiven *given = &held->given;
   given->slot = calloc(file->count + set->count + 1, sizeof(ZpSlot *));
-  if (!given->slot) return false;
+  if (!given->slot) return zp_fail_memory(err);
   for (size_t f = 0, s = 0; f < file->count || s < set->count;) {
     const int order = f == file->count ? 1 : s == set->count ? -1 : zp_key_order(file->slot[f].key, set->slot[s].key);
     given->slot[given->count++] = order < 0 ? &file->slot[f] : &set->slot[s];
     f += order <= 0;
     s += order >= 0;
   }
-  return draw_materials(held);
+  return add_below(held, err);
 }
 
 static void free_held(Held *held) {
   zp_plan_free(&held->plan);
   free(held->given.slot);
-  free(held->drawn);
+  free(held->below);
+  free(held->fitted);
 }
 
 static ZpStatus make_held(const Layer *file, const Layer *set, Held *held, ZpError *err) {
   *held = (Held){0};
-  return hold(file, set, held) ? zp_plan_make(&held->plan, &held->given, err) : zp_fail_memory(err);
+  ZpStatus status = hold(file, set, held, err);
+  return status == ZP_OK ? zp_plan_make(&held->plan, &held->given, err) : status;
 }
 
 /* Set the texts; nothing else depends on them. */
@@ -297,7 +363,8 @@ static ZpStatus merge(ZpScenario *s, Reader *reader, Layer *layer, ZpError *err)
   if (status != ZP_OK) {
     free_held(&held);
     free(both.slot);
-    return status == ZP_MACHINE ? zp_fail_memory(err) : zp_source_fail(reader->source, 0, err, "%s", reason.message);
+    return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message)
+                                : zp_source_fail(reader->source, 0, err, "%s", reason.message);
   }
   replace(reader, layer, &both);
   zp_names_free(&s->names);
@@ -492,16 +559,12 @@ static ZpStatus read_words(ZpGivenNames *names, bool known, int key, const ZpYam
   return status;
 }
 
-static bool takes_spread(int key) {
-  return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
-}
-
 /* A list or one value: "50 um", "10 um .. 200 um : 20", "normal(50 um, 1 um)". */
 static ZpStatus read_value(ZpGivenNames *names, bool known, int key, const ZpYamlItem *item, const char **word,
                            ZpSlot *slot, ZpError *reason) {
   const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && !zp_key_is_name(key);
   const bool ranges = alone && zp_range_is(item->word),
-             spreads = alone && takes_spread(key) && zp_spread_is(item->word);
+             spreads = alone && zp_value_is_real(zp_key(key)) && zp_spread_is(item->word);
   char copy[ZP_VALUE_SIZE];
   ZpParts parts;
   if (!ranges && !spreads) return read_words(names, known, key, item, word, slot, reason);
@@ -583,7 +646,7 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
   ZpError reason;
   const ZpDistributionKind kind = zp_parts_kind(&reader->parts);
   const bool spreads = kind != ZP_DISTRIBUTION_NONE;
-  if (spreads ? !takes_spread(key) : !zp_value_is_number(zp_key(key)))
+  if (spreads ? !zp_value_is_real(zp_key(key)) : !zp_value_is_number(zp_key(key)))
     return fail_at(reader, item->path, item->line, err, "takes one value, not a %s",
                    spreads ? "distribution" : "range");
   ZpStatus status = check_first(reader, item, line_of(reader, key), err);
@@ -655,6 +718,7 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   char path[ZP_PATH_SIZE];
   ZpError reason;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
+  if (zp_fitted_is_section(item)) return ZP_OK; /* it has no values */
   if (zp_names_group(item->path) < ZP_CALLED_KINDS)
     return item->kind == ZP_YAML_GROUP || *item->word == 0
                ? check_no_parts(reader, -1, item->line, err)
@@ -831,17 +895,47 @@ static ZpStatus fail_whole(const ZpScenario *s, ZpStatus status, const char *row
   return zp_source_fail(&source, 0, err, "%s%s", row, message);
 }
 
+/* The message of a scenario whose base.file is wrong, with the line that names it. */
+static ZpStatus fail_base_of(const ZpScenario *s, const char *message, ZpError *err) {
+  const ZpSource source = {.name = s->name};
+  const bool of_file = s->name && slot_of(&s->file, ZP_KEY(base.file)) && !slot_of(&s->set, ZP_KEY(base.file));
+  return of_file ? zp_source_fail(&source, s->held.line, err, "%s", message)
+                 : zp_fail(err, ZP_BAD_INPUT, "%s", message);
+}
+
+/* Is the first case valid with the keys that the scenario gives itself, without base.file? */
+static bool is_good_alone(const ZpScenario *s) {
+  ZpActuatorDef def = {0};
+  const ZpGiven *given = &s->held.given;
+  ZpAssignment *list = calloc(given->count + 1, sizeof *list);
+  size_t used = 0;
+  for (size_t i = given->count; list && i-- > 0;)
+    if (!given->slot[i]->is_fitted && !given->slot[i]->text && zp_key_in_def(given->slot[i]->key))
+      list[used++] = (ZpAssignment){given->slot[i]->key, given->slot[i]->value[0]};
+  bool good = list && zp_def_resolve(&def, list, used, NULL) == ZP_OK &&
+              zp_names_give(&s->names, &def, NULL) == ZP_OK && set_texts(s, &def, NULL) == ZP_OK &&
+              zp_study_check(zp_scenario_study(s), &def, NULL) == ZP_OK;
+  zp_def_clear(&def);
+  free(list);
+  return good;
+}
+
 /* (status of a case) => the same status, with file and row in the message. */
 static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const ZpError *reason, ZpError *err) {
-  char row[64] = "";
+  char row[64] = "", text[sizeof err->message];
   if (status == ZP_OK) return ZP_OK;
   if (s->held.plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->held.plan.count);
+  if (s->held.fitted && reason->status == ZP_BAD_INPUT && is_good_alone(s)) {
+    snprintf(text, sizeof text, "%sbase.file: a value of it is refused: %.400s", row, reason->message);
+    return fail_base_of(s, text, err);
+  }
   return fail_whole(s, reason->status, row, reason->message, err);
 }
 
 static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
   if (index >= s->held.plan.count)
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->held.plan.count);
+  if (s->held.base.status) return fail_base_of(s, s->held.base.message, err);
   return s->held.plan.problem.status ? fail_whole(s, ZP_BAD_INPUT, "", s->held.plan.problem.message, err) : ZP_OK;
 }
 
@@ -931,8 +1025,8 @@ static void write_value(const Writer *w, int key) {
     fprintf(w->file, " # %s", zp_key(key)->choices[zp_def_liquid(w->first)].word);
 }
 
-/* One line. A value that the preset sets differently in different rows is left to the preset, where it is found again
- * on reading. */
+/* One line. A value that the preset sets differently in different rows is left to the preset, and a joint distribution
+ * to base.file, where they are found again on reading. */
 static void write_key(Writer *w, int key) {
   const ZpSlot *slot = zp_given(&w->scenario->held.given, key);
   char called[ZP_PATH_SIZE];
@@ -941,6 +1035,10 @@ static void write_key(Writer *w, int key) {
   char text[ZP_VALUE_SIZE];
   if (key < ZP_KEYS && w->differs[key] && !is_list && !spreads) {
     fprintf(w->file, "# %s: differs between rows; the preset sets it\n", name);
+    return;
+  }
+  if (spreads && slot->is_fitted) {
+    fprintf(w->file, "# %s: drawn; base.file has its distribution\n", name);
     return;
   }
   zp_yaml_write_key(w->file, name, *w->before ? w->before : NULL);

@@ -75,8 +75,12 @@ static bool is_pure(const ZpKey *key) {
   return strcmp(key->unit, "1") == 0;
 }
 
+bool zp_value_is_real(const ZpKey *key) {
+  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO;
+}
+
 bool zp_value_is_number(const ZpKey *key) {
-  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
+  return zp_value_is_real(key) || key->type == ZP_KEY_INT;
 }
 
 ZpPaths zp_key_paths(int index) {

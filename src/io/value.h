@@ -29,6 +29,9 @@ ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *
 /* Are the values of a key numbers: no words, no text? */
 bool zp_value_is_number(const ZpKey *key);
 
+/* Are they real numbers, which can be fitted and drawn? */
+bool zp_value_is_real(const ZpKey *key);
+
 /* Whether a text key is the path of a file, or of several that are separated by semicolons. */
 typedef enum ZpPaths { ZP_PATHS_NONE, ZP_PATHS_ONE, ZP_PATHS_SEVERAL } ZpPaths;
 ZpPaths zp_key_paths(int index);

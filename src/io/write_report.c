@@ -110,6 +110,7 @@ static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)
   if (status == ZP_OK) status = write_tables(report, &files, err);
   if (status == ZP_OK) status = zp_vtk_write(report, err);
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);
+  if (status == ZP_OK) status = zp_fitted_report(report, err);
   if (status == ZP_OK) status = zp_plots_prepare(report, err);
   if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err);
   if (status == ZP_OK)
