@@ -77,7 +77,9 @@ static const char *name_at_bound(const ZpFit *fit, const double *z) {
 
 static void note_unbounded(const ZpFit *fit, int k, const ZpFitInterval *interval, ZpResult *result) {
   if (!isnan(interval->low) && !isnan(interval->high)) return;
-  if (interval->trades >= 0)
+  if (interval->lost)
+    zp_result_note(result, "%s has no interval: the search did not find its ends", fit->name[k]);
+  else if (interval->trades >= 0)
     zp_result_note(result,
                    "%s has no interval: within the bounds the data do not limit it, because a change of it is made up "
                    "for by %s",
@@ -395,7 +397,7 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   ZpFitInterval interval[ZP_FIT_MOST];
   ZpFitProfiles profiles = {0};
   for (int k = 0; k < ZP_FIT_MOST; k++)
-    interval[k] = (ZpFitInterval){NAN, NAN, -1};
+    interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
   if (good) zp_fit_intervals(fit, judgement.variance, best, interval, &profiles);
   if (good) judgement = zp_fit_judge(fit, best);
   if (good) missing = zp_fit_find_missing(fit, best);

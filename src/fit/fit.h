@@ -69,8 +69,8 @@ typedef struct ZpFitNamed {
   unsigned x, y, kinds;
 } ZpFitNamed;
 
-/* Exact derivatives are those of one run with its time steps. Differences over what the data leave open average over the
- * small jumps that values have where faces touch and part, and cost less; one-sided ones serve a search. */
+/* Exact derivatives are those of one run with its time steps. Differences over what the data leave open average over
+ * the small jumps that values have where faces touch and part, and cost less; one-sided ones serve a search. */
 typedef enum ZpFitSlopes { ZP_FIT_EXACT, ZP_FIT_ONE_SIDED, ZP_FIT_CENTRAL } ZpFitSlopes;
 
 typedef struct ZpFit {
@@ -97,10 +97,10 @@ typedef struct ZpFit {
   double *sigma;    /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   double tolerance; /* of the time steps of records, if solver.tolerance is auto; NAN: the usual one */
   double way[ZP_FIT_KEYS][ZP_FIT_KEYS]; /* steps of differences in columns: changes of z that are independent */
-  double enough;    /* a descent ends where the squares would fall by less than this share of their mean, */
-  double rough;     /* and where they would by less than this, but do not */
+  double enough;      /* a descent ends where the squares would fall by less than this share of their mean, */
+  double rough;       /* and where they would by less than this, but do not */
   ZpFitSlopes slopes; /* how the derivatives of records by keys are found */
-  double horizon;   /* rows of records count up to the closing and this share of the time after it */
+  double horizon;     /* rows of records count up to the closing and this share of the time after it */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */
   ZpStatus status; /* of the machine */
@@ -181,8 +181,8 @@ void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point);
 /* Likewise without derivatives: its J stays. */
 void zp_fit_find_values(ZpFit *fit, ZpFitPoint *point);
 
-/* The minimum of the linear model at a point, within the bounds => to [n], and by how much the squares fall until there.
- * `held` as below. False if it is not determined. */
+/* The minimum of the linear model at a point, within the bounds => to [n], and by how much the squares fall until
+ * there. `held` as below. False if it is not determined. */
 bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double *to, double *falls);
 
 /* Go from a point to the nearest minimum within the bounds, in at most so many iterations (Levenberg and Marquardt).
@@ -212,6 +212,7 @@ typedef struct ZpFitJudgement {
   double reduced;    /* chi-square over the degrees of freedom; NAN: standard deviations are not known */
   double too_large;  /* probability of a larger chi-square if model and standard deviations are true; NAN likewise */
   double runs;       /* probability of as few runs of residuals of one sign; NAN: too few rows */
+  double succession; /* and of as large a correlation from row to row */
   double variance;   /* of a weighted residual: 1 if standard deviations are known */
   size_t outliers;   /* rows whose residual is so large that not one in twenty such fits has it, */
   size_t outlier[8]; /* the largest ones first */
@@ -243,6 +244,7 @@ double zp_fit_student(double freedom);
 typedef struct ZpFitInterval {
   double low, high; /* z */
   int trades;       /* the parameter against which an unbounded one trades; -1: none */
+  bool lost;        /* an end was not found, although there may be one */
 } ZpFitInterval;
 
 /* A point of a profile: parameter `held` is held there, the others fit best. */

@@ -59,6 +59,23 @@ static double runs_test(const ZpFit *fit, const double *fitted) {
   return above((all.mean - 0.5 - all.runs) / sqrt(all.variance));
 }
 
+/* Probability of residuals that are as like their neighbours, by their correlation from row to row, whose variance is 1
+ * over their number. A sign sees less than a size. */
+static double succession_test(const ZpFit *fit, const double *fitted) {
+  double products = 0, squares = 0, pairs = 0;
+  for (size_t s = 0; s < fit->sets; s++) {
+    const ZpFitSet *of = &fit->set[s];
+    for (size_t i = of->first; i < of->first + of->rows; i++) {
+      const double r = zp_fit_residual(fit, fitted, i);
+      squares += r * r;
+      if (i == of->first) continue;
+      products += r * zp_fit_residual(fit, fitted, i - 1);
+      pairs++;
+    }
+  }
+  return squares > 0 ? above(products / squares * sqrt(pairs)) : (double)NAN;
+}
+
 /* Rows whose residual is too large for normal noise of so many rows, the largest first. */
 static void find_outliers(const ZpFit *fit, const ZpFitPoint *best, ZpFitJudgement *of) {
   enum { MOST = sizeof of->outlier / sizeof of->outlier[0] };
@@ -78,7 +95,7 @@ static void find_outliers(const ZpFit *fit, const ZpFitPoint *best, ZpFitJudgeme
 
 ZpFitJudgement zp_fit_judge(const ZpFit *fit, const ZpFitPoint *best) {
   const double freedom = (double)fit->rows - fit->n;
-  ZpFitJudgement of = {NAN, NAN, runs_test(fit, best->fitted), 1, 0, {0}};
+  ZpFitJudgement of = {NAN, NAN, runs_test(fit, best->fitted), succession_test(fit, best->fitted), 1, 0, {0}};
   if (!fit->sigma) of.variance = freedom > 0 ? best->square / freedom : (double)NAN;
   if (fit->sigma && freedom > 0) {
     of.reduced = best->square / freedom;

@@ -220,9 +220,7 @@ static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted
   ZpStatus status = zp_fit_run_def(fit, record, z, &def) ? ZP_OK : ZP_BAD_INPUT;
   def.solver.end_time = end;
   if (status == ZP_OK) status = zp_model_create_driven(&def, record->rows > 0 ? &table : NULL, &model, NULL);
-  if (status == ZP_OK)
-    status =
-        zp_trace_create(model, signal, signals, fit->key, keys, end, fit->hooks, &trace, NULL);
+  if (status == ZP_OK) status = zp_trace_create(model, signal, signals, fit->key, keys, end, fit->hooks, &trace, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   size_t k = 0;
   for (size_t i = 0; i < fit->sets && trace; i++) {

@@ -15,6 +15,7 @@ typedef struct Profile {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   ZpFitPoint at; /* the point of the profile, with arrays of its own */
   bool better;   /* it fits better than the best point */
+  bool gave_up;  /* the last search for an end did not come to it */
   ZpFitProfiles *points;
 } Profile;
 
@@ -91,6 +92,7 @@ static double end_at(Profile *p, int which, double side) {
     s = isfinite(high) ? low + (high - low) * fmin(fmax((1 - root_low) / (root_high - root_low), 0.05), 0.95)
                        : s * fmin(fmax(1 / fmax(root, 0.1), 1.2), 3);
   }
+  p->gave_up = true;
   return NAN;
 }
 
@@ -108,11 +110,14 @@ static int partner_of(const Profile *p, int which) {
 /* False: a better point was found. */
 static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
-    interval[k] = (ZpFitInterval){NAN, NAN, -1};
+    interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
   p->points->count = 0;
   if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
   for (int k = 0; k < p->fit->n && !p->better; k++) {
-    interval[k] = (ZpFitInterval){end_at(p, k, -1), p->better ? NAN : end_at(p, k, 1), -1};
+    p->gave_up = false;
+    interval[k].low = end_at(p, k, -1);
+    if (!p->better) interval[k].high = end_at(p, k, 1);
+    interval[k].lost = p->gave_up;
     if (isnan(interval[k].low) || isnan(interval[k].high)) interval[k].trades = partner_of(p, k);
   }
   return !p->better;
@@ -137,7 +142,12 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
   Profile p = {.fit = fit, .best = best, .rise = zp_fit_level(fit) * variance, .points = points};
   points->count = 0;
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
-  for (int k = 0; k < MOST && !find_all(&p, interval); k++)
-    go_to_better(&p);
+  bool whole = false;
+  for (int k = 0; k < MOST && !whole; k++) {
+    whole = find_all(&p, interval);
+    if (!whole) go_to_better(&p);
+  }
+  for (int k = 0; k < fit->n && !whole; k++)
+    interval[k] = (ZpFitInterval){NAN, NAN, -1, true};
   free(p.at.fitted);
 }

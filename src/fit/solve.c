@@ -250,7 +250,8 @@ static bool descend(ZpFit *fit, const bool *held, Descent *d) {
 }
 
 bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
-  static const double strongest = 1e8, far = 0.1; /* how far the squares may have fallen with derivatives kept to the end */
+  static const double strongest = 1e8,
+                      far = 0.1; /* how far the squares may have fallen with derivatives kept to the end */
   Descent d = {.point = point, .keeps = fit->runs > 0, .damping = 1e-3, .growth = 2};
   bool found = fit->n == 0, opened = zp_fit_open_point(fit, &d.trial);
   for (int k = 0; k < most && opened && !found && d.damping < strongest && zp_fit_goes_on(fit); k++)

@@ -132,6 +132,13 @@ static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
 
 static const double searching = 1e-4; /* tolerance of the time steps of a search over a part of the time */
 
+/* Are residuals noise beyond doubt? Doubt costs no more than another start. */
+static bool is_clean(const ZpFit *fit, const ZpFitPoint *point) {
+  static const double unlikely = 0.05;
+  const ZpFitJudgement of = zp_fit_judge(fit, point);
+  return zp_fit_is_noise(&of) && !(of.runs < unlikely) && !(of.succession < unlikely);
+}
+
 /* From a minimum over the closing on, over more and more of the time. Over all of it faces touch and part so often that
  * only accurate steps give a sum of squares that is smooth => whether the residuals are noise. */
 static bool follow_motion(ZpFit *fit, Start *start, ZpFitPoint *point) {
@@ -144,8 +151,7 @@ static bool follow_motion(ZpFit *fit, Start *start, ZpFitPoint *point) {
   find_tolerance(fit, point);
   descend_from(fit, 1, start, point);
   start->tolerance = fit->tolerance;
-  const ZpFitJudgement judgement = zp_fit_judge(fit, point);
-  return point->good && zp_fit_is_noise(&judgement);
+  return point->good && is_clean(fit, point);
 }
 
 /* When a column of a record has first done half of what it does. */
@@ -183,6 +189,20 @@ static void refine(ZpFit *fit, ZpFitPoint *best) {
   best->ended = zp_fit_descend(fit, NULL, MOST, best);
 }
 
+/* Follow the minima over the closing, then those of further starts, until the residuals of a record are noise; where
+ * nothing moves, all of the minima. */
+static void follow_all(ZpFit *fit, Start *start, int count, ZpFitStarts *starts, ZpFitPoint *point) {
+  enum { MOST = 4 };
+  const int minima = descend_closing(fit, start, count, point);
+  const int most = fit->runs == 0 ? minima : count < MOST ? count : MOST;
+  for (bool clean = false; starts->tried < most && !(clean && fit->runs > 0) && zp_fit_goes_on(fit);) {
+    Start *next = &start[starts->tried++];
+    fit->tolerance = searching;
+    if (starts->tried > minima) descend_from(fit, 0, next, point);
+    clean = follow_motion(fit, next, point);
+  }
+}
+
 /* The best of the minima, and the best other one. */
 static void compare(const ZpFit *fit, Start *start, ZpFitStarts *starts) {
   if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
@@ -215,9 +235,7 @@ bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
   }
   prepare(fit);
   look(fit, start, count, best);
-  const int minima = descend_closing(fit, start, count, best);
-  for (bool noise = false; starts->tried < minima && !(noise && fit->runs > 0) && zp_fit_goes_on(fit);)
-    noise = follow_motion(fit, &start[starts->tried++], best);
+  follow_all(fit, start, count, starts, best);
   compare(fit, start, starts);
   if (zp_fit_goes_on(fit)) {
     memcpy(best->z, start->z, sizeof best->z);
