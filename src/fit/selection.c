@@ -43,7 +43,7 @@ bool zp_selection_covariance(const ZpSelection *selection, const ZpInformation *
 }
 
 double zp_selection_value(const ZpSelection *selection, const ZpInformation *information) {
-  ZpInformation L, C;
+  ZpInformation L, C = {{{0}}};
   double value = 0;
   if (!factor(selection, information, &L)) return -INFINITY;
   if (selection->criterion == ZP_PLAN_A) zp_cholesky_invert(selection->keys, L.of, C.of);

@@ -189,7 +189,7 @@ static void relax(Descent *d, double ratio) {
 
 /* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden). */
 static void learn(const ZpFit *fit, Descent *d) {
-  double along[ZP_FIT_MOST], step[ZP_FIT_MOST], squares = 0;
+  double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, squares = 0;
   for (int k = 0; k < fit->n; k++) {
     const double size = size_of(fit, k, d->point->z[k]);
     step[k] = d->trial.z[k] - d->point->z[k];
