@@ -36,24 +36,26 @@ static ZpActuatorDef def_of(const ZpScenario *scenario, size_t index) {
 
 /* -- the file ---------------------------------------------------------------------------------------- */
 
-static const int of_fit[] = {ZP_KEY(ribbon.young_modulus), ZP_KEY(insulator.permittivity), ZP_KEY(ribbon.thickness)};
-
 /* Of three keys: the second at a bound, so without errors; an end of the interval of the third is not limited. */
-static const ZpFitted awkward = {
-    3,
-    {{.key = of_fit[0],
-      .value = 0.1 + 1.880000000000001e11,
-      .error = 1e9 / 3,
-      .low = 1.87e11 / 7 * 6.9,
-      .high = 1.9e11},
-     {.key = of_fit[1], .value = 4.62, .error = NAN, .low = NAN, .high = NAN, .correlation = {NAN}},
-     {.key = of_fit[2],
-      .value = 50e-6 / 3 * 3.1,
-      .error = 1e-6 / 3,
-      .low = NAN,
-      .high = 51e-6,
-      .correlation = {-1.0 / 3, NAN}}},
-    ZP_DOUBTFUL};
+static const ZpFitted awkward = {3,
+                                 {{.key = ZP_KEY(ribbon.young_modulus),
+                                   .value = 0.1 + 1.880000000000001e11,
+                                   .error = 1e9 / 3,
+                                   .low = 1.87e11 / 7 * 6.9,
+                                   .high = 1.9e11},
+                                  {.key = ZP_KEY(insulator.permittivity),
+                                   .value = 4.62,
+                                   .error = NAN,
+                                   .low = NAN,
+                                   .high = NAN,
+                                   .correlation = {NAN}},
+                                  {.key = ZP_KEY(ribbon.thickness),
+                                   .value = 50e-6 / 3 * 3.1,
+                                   .error = 1e-6 / 3,
+                                   .low = NAN,
+                                   .high = 51e-6,
+                                   .correlation = {-1.0 / 3, NAN}}},
+                                 ZP_DOUBTFUL};
 
 static void assert_same_number(double a, double b) {
   ck_assert_msg(memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b)), "%.17g became %.17g", a, b);

@@ -100,6 +100,7 @@ typedef struct ZpFit {
   double enough;      /* a descent ends where the squares would fall by less than this share of their mean, */
   double rough;       /* and where they would by less than this, but do not */
   ZpFitSlopes slopes; /* how the derivatives of records by keys are found */
+  double scatter;     /* of the sum of squares from point to point, by the errors of the time steps */
   double horizon;     /* rows of records count up to the closing and this share of the time after it */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */

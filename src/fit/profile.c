@@ -67,7 +67,7 @@ static double rise_at(Profile *p, int which, double z) {
     zp_fit_descend(p->fit, held, MOST, &p->at);
   }
   const double rise = p->at.square - p->best->square;
-  p->better |= p->at.good && rise < -0.01 * p->rise;
+  p->better |= p->at.good && rise < -fmax(0.01 * p->rise, 2 * p->fit->scatter);
   record(p, which, rise);
   return rise;
 }
@@ -75,7 +75,7 @@ static double rise_at(Profile *p, int which, double z) {
 /* The end of an interval on one side; NAN: the bounds come first. */
 static double end_at(Profile *p, int which, double side) {
   enum { MOST = 10 };
-  static const double near = 0.03;
+  const double near = fmax(0.03, fmin(p->fit->scatter / p->rise, 0.3));
   const double from = p->best->z[which], bound = side > 0 ? p->fit->upper[which] : p->fit->lower[which];
   const double most = fabs(bound - from);
   double low = 0, high = INFINITY, root_low = 0, root_high = 0, s = sqrt(p->rise * p->C[which][which]);

@@ -100,29 +100,34 @@ static int descend_closing(ZpFit *fit, Start *start, int count, ZpFitPoint *poin
 }
 
 /* By how much the errors of the time steps move the parameters, at most, in standard errors: steps of a quarter of the
- * tolerance change the values, and the point then has those. */
+ * tolerance change the values, and the point then has those. What is left is a third of the change. */
 static double error_of_steps(ZpFit *fit, ZpFitPoint *at, double *change) {
-  double C[ZP_FIT_MOST][ZP_FIT_MOST], moved = 0;
+  static const double left = 1. / 3;
+  double C[ZP_FIT_MOST][ZP_FIT_MOST], moved = 0, squares = 0;
   for (size_t i = 0; i < fit->rows; i++)
     change[i] = -zp_fit_residual(fit, at->fitted, i);
   fit->tolerance /= 4;
   zp_fit_find_values(fit, at);
+  for (size_t i = 0; i < fit->rows; i++) {
+    change[i] += zp_fit_residual(fit, at->fitted, i);
+    squares += change[i] * change[i];
+  }
   if (!zp_fit_covariance(fit, at->J, NULL, 1e-10, 1e-12, C)) return INFINITY;
   const double variance = zp_fit_judge(fit, at).variance;
+  fit->scatter = 2 * left * sqrt(squares * variance);
   for (int a = 0; a < fit->n; a++) {
     double move = 0;
     for (size_t i = 0; i < fit->rows; i++)
       for (int b = 0; b < fit->n; b++)
-        move += C[a][b] * at->J[i * (size_t)fit->n + (size_t)b] * (change[i] + zp_fit_residual(fit, at->fitted, i));
+        move += C[a][b] * at->J[i * (size_t)fit->n + (size_t)b] * change[i];
     moved = fmax(moved, fabs(move) / sqrt(variance * C[a][a]));
   }
-  return moved;
+  return left * moved;
 }
 
-/* A tolerance with which the errors of the steps are small beside the standard errors. What is left after the last step
- * to it is a third of what that changes. */
+/* A tolerance with which the errors of the steps are small beside the standard errors. */
 static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
-  static const double little = 0.3, least = 1e-5;
+  static const double little = 0.1, least = 1e-5;
   double *change = fit->runs > 0 ? calloc(fit->rows, sizeof *change) : NULL, error = INFINITY;
   if (fit->runs > 0 && !change) fit->status = zp_fail_memory(fit->err);
   while (change && zp_fit_goes_on(fit) && at->good && fit->tolerance > least && !(error < little))
