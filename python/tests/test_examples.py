@@ -44,7 +44,7 @@ def test_notebooks():
     script = os.path.join(PYTHON, "..", "scripts", "run-notebooks.py")
     found = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True)
     assert found.returncode == 0, found.stdout + found.stderr
-    assert found.stdout.count("s of CPU") == 6
+    assert found.stdout.count("s of CPU") == 7
 
 
 def test_readme():
