@@ -423,6 +423,14 @@ def rule_no_paths_of_this_machine(repo, files):
                 yield False, "%s:%d" % (name, number), "path of a machine: %s" % line[found.start() :][:40].strip()
 
 
+def rule_root_has_no_results(repo, files):
+    """What a program leaves where it runs is not of the tree: tables, journals and checkpoints stand in rooms of data."""
+    rooms = ("bench/", "benchmarks/", "examples/", "tests/")
+    for name in files:
+        data = name.endswith((".csv", ".h5", ".zps", ".sqlite"))
+        yield not data or name.startswith(rooms), name + ":1", "left by a program that ran here"
+
+
 def rule_map(repo, files):
     """Every folder of src/ is in MAP.md."""
     text = read(repo, "MAP.md") if "MAP.md" in files else ""
@@ -647,6 +655,7 @@ RULES = [
     rule_no_libm,
     rule_no_mutable_globals,
     rule_no_paths_of_this_machine,
+    rule_root_has_no_results,
     rule_map,
     rule_equations_are_checked,
     rule_short_functions,
