@@ -19,6 +19,14 @@ static inline ZpScenario *new_scenario(void) {
   return zp_test_owns(scenario, destroy_scenario);
 }
 
+static inline ZpActuatorDef case_of(const ZpScenario *scenario, size_t index) {
+  ZpActuatorDef def = {0};
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_scenario_def(scenario, index, &def, &err) == ZP_OK, "%s", err.message);
+  lend_members(&def);
+  return def;
+}
+
 static inline ZpResult *data_study_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};

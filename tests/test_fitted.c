@@ -27,13 +27,6 @@ static char *base_of(const char *name, const char *text) {
   return set;
 }
 
-static ZpActuatorDef def_of(const ZpScenario *scenario, size_t index) {
-  ZpActuatorDef def = {0};
-  ck_ok(zp_scenario_def(scenario, index, &def, &err));
-  lend_members(&def);
-  return def;
-}
-
 /* -- the file ---------------------------------------------------------------------------------------- */
 
 /* Of three keys: the second at a bound, so without errors; an end of the interval of the third is not limited. */
@@ -114,7 +107,7 @@ TEST(file_is_a_scenario) {
   ZpScenario *s = new_scenario();
   ck_ok(zp_scenario_parse(s, of_two, strlen(of_two), "fitted.yaml", &err));
   ck_assert_uint_eq(zp_scenario_count(s), 1);
-  ck_assert_double_eq(def_of(s, 0).ribbon.thickness, 50e-6);
+  ck_assert_double_eq(case_of(s, 0).ribbon.thickness, 50e-6);
   ck_says(zp_scenario_parse(s, "fitted: 3", 9, "test.yaml", &err), ZP_BAD_INPUT, "fitted: unknown key");
 }
 
@@ -124,14 +117,14 @@ TEST(file_is_a_scenario) {
 TEST(values_are_below_the_scenario) {
   ZpScenario *s = SCENARIO(base_of("two.yaml", of_two), "ribbon.material=brass", "preset=paper-code", "mesh.nodes=21");
   ck_assert_uint_eq(zp_scenario_count(s), 1);
-  ck_assert_double_eq(def_of(s, 0).ribbon.young_modulus, 200e9);
-  ck_assert_double_eq(def_of(s, 0).ribbon.thickness, 50e-6);
-  ck_assert_double_eq(def_of(s, 0).ribbon.density, 8440);
+  ck_assert_double_eq(case_of(s, 0).ribbon.young_modulus, 200e9);
+  ck_assert_double_eq(case_of(s, 0).ribbon.thickness, 50e-6);
+  ck_assert_double_eq(case_of(s, 0).ribbon.density, 8440);
   ck_ok(zp_scenario_set(s, "ribbon.thickness=[60 um, 70 um]", &err));
-  ck_assert_double_eq(def_of(s, 1).ribbon.thickness, 70e-6);
-  ck_assert_double_eq(def_of(s, 1).ribbon.young_modulus, 200e9);
+  ck_assert_double_eq(case_of(s, 1).ribbon.thickness, 70e-6);
+  ck_assert_double_eq(case_of(s, 1).ribbon.young_modulus, 200e9);
   ck_ok(zp_scenario_set(s, "base.file=\"\"", &err));
-  ck_assert_double_eq(def_of(s, 1).ribbon.young_modulus, 110e9);
+  ck_assert_double_eq(case_of(s, 1).ribbon.young_modulus, 110e9);
 }
 
 /* A path is relative to the file of the scenario. */
@@ -140,7 +133,7 @@ TEST(path_is_that_of_the_scenario) {
   base_of("two.yaml", of_two);
   write_file(path_of("own.yaml"), "base.file: two.yaml\n");
   ck_ok(zp_scenario_read(s, path_of("own.yaml"), &err));
-  ck_assert_double_eq(def_of(s, 0).ribbon.thickness, 50e-6);
+  ck_assert_double_eq(case_of(s, 0).ribbon.thickness, 50e-6);
 }
 
 /* Files that are refused, and how. */
@@ -173,7 +166,7 @@ TESTS(wrong_files_are_refused, 0, LENGTH_OF(wrong)) {
   ZpActuatorDef def = {0};
   ck_says(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT, wrong[_i].message);
   ck_ok(zp_scenario_set(s, base_of("two.yaml", of_two), &err)); /* a later --set mends it */
-  ck_assert_double_eq(def_of(s, 0).ribbon.thickness, 50e-6);
+  ck_assert_double_eq(case_of(s, 0).ribbon.thickness, 50e-6);
 }
 
 static void refuse(ZpScenario *s, const char *message) {
@@ -195,11 +188,11 @@ TEST(wrong_uses_are_refused) {
   const char unknown[] =
       "ribbon.width: 10 mm\nfitted:\n  ribbon.width: {standard_error: null, interval_95: [null, null]}\n";
   s = SCENARIO(base_of("unknown.yaml", unknown));
-  ck_assert_double_eq(def_of(s, 0).ribbon.width, 10e-3);
+  ck_assert_double_eq(case_of(s, 0).ribbon.width, 10e-3);
   ck_ok(zp_scenario_set(s, "sampling.tolerances=base", &err));
   refuse(s, "ribbon.width has no standard error in base.file; give it a value or a distribution");
   ck_ok(zp_scenario_set(s, "ribbon.width=normal(10 mm, 1 mm)", &err));
-  ck_assert(def_of(s, 0).ribbon.width != def_of(s, 1).ribbon.width);
+  ck_assert(case_of(s, 0).ribbon.width != case_of(s, 1).ribbon.width);
   const char long_platform[] = "platform.length: 150 mm\nfitted: {outcome: converged}\n";
   s = SCENARIO(base_of("long.yaml", long_platform));
   refuse(s, "base.file: a value of it is refused: platform.length");
@@ -218,7 +211,7 @@ TESTS(samples_are_those_of_the_fit, 0, 3) {
   double modulus = 0, thickness = 0, square = 0, product = 0;
   ck_assert_uint_eq(zp_scenario_count(s), SAMPLES);
   for (size_t i = 0; i < SAMPLES; i++) {
-    const ZpActuatorDef def = def_of(s, i);
+    const ZpActuatorDef def = case_of(s, i);
     const double a = (def.ribbon.young_modulus - 200e9) / 20e9, b = (def.ribbon.thickness - 50e-6) / 1.6e-6;
     modulus += a / SAMPLES;
     thickness += b / SAMPLES;
@@ -235,7 +228,7 @@ TESTS(samples_are_those_of_the_fit, 0, 3) {
   zp_test_owns(text, free);
   ZpScenario *back = new_scenario();
   ck_ok(zp_scenario_parse(back, text, size, "back.yaml", &err));
-  ck_assert_double_eq(def_of(back, 77).ribbon.thickness, def_of(s, 77).ribbon.thickness);
+  ck_assert_double_eq(case_of(back, 77).ribbon.thickness, case_of(s, 77).ribbon.thickness);
   ck_assert_uint_eq(zp_scenario_count(back), SAMPLES);
 }
 
@@ -244,7 +237,7 @@ TEST(one_key_is_plainly_normal) {
   ZpScenario *joint = SCENARIO(base_of("two.yaml", of_two), "sampling.tolerances=base", "ribbon.thickness=50 um"),
              *plain = SCENARIO("ribbon.young_modulus=normal(200 GPa, 20 GPa)");
   for (size_t i = 0; i < zp_scenario_count(plain); i++)
-    ck_assert_double_eq(def_of(joint, i).ribbon.young_modulus, def_of(plain, i).ribbon.young_modulus);
+    ck_assert_double_eq(case_of(joint, i).ribbon.young_modulus, case_of(plain, i).ribbon.young_modulus);
 }
 
 /* A standard error of half the value reaches below the least value of the key, where it is cut. */
@@ -254,7 +247,7 @@ TEST(values_stay_in_their_range) {
   const ZpKey *key = zp_key(ZP_KEY(ribbon.thickness));
   double least = INFINITY;
   for (size_t i = 0; i < 1024; i++) {
-    const double thickness = def_of(s, i).ribbon.thickness;
+    const double thickness = case_of(s, i).ribbon.thickness;
     ck_assert(thickness >= key->min && thickness <= key->max);
     least = fmin(least, thickness);
   }
@@ -264,7 +257,7 @@ TEST(values_stay_in_their_range) {
 /* -- what other studies make of it ------------------------------------------------------------------- */
 
 static ZpResult *run(const ZpScenario *s, size_t index) {
-  const ZpActuatorDef def = def_of(s, index);
+  const ZpActuatorDef def = case_of(s, index);
   return data_study_of(zp_scenario_study(s), &def);
 }
 

@@ -21,18 +21,11 @@ static ZpScenario *scenario_of(const char *text) {
   return s;
 }
 
-static ZpActuatorDef def_of(const ZpScenario *s, size_t index) {
-  ZpActuatorDef def = {0};
-  ck_ok(zp_scenario_def(s, index, &def, &err));
-  lend_members(&def);
-  return def;
-}
-
 /* Value of `key` in the only Def of a text. */
 static double value_in(const char *text, const char *key) {
   ZpScenario *s = scenario_of(text);
   ck_assert_uint_eq(zp_scenario_count(s), 1);
-  ZpActuatorDef def = def_of(s, 0);
+  ZpActuatorDef def = case_of(s, 0);
   return zp_def_get(&def, zp_key_find(key));
 }
 
@@ -65,7 +58,7 @@ static void assert_round_trip(const ZpScenario *s) {
   ck_assert_uint_eq(zp_scenario_count(s), zp_scenario_count(back));
   ck_assert_int_eq(zp_scenario_study(s), zp_scenario_study(back));
   for (size_t i = 0; i < zp_scenario_count(s); i++) {
-    ZpActuatorDef a = def_of(s, i), b = def_of(back, i);
+    ZpActuatorDef a = case_of(s, i), b = case_of(back, i);
     assert_same_def(&a, &b);
   }
   char *again = written(back);
@@ -366,8 +359,8 @@ TESTS(test_bad_text, 0, LENGTH_OF(bad_texts)) {
   ck_says(parse(s, bad_texts[_i].text, &err), ZP_BAD_INPUT, bad_texts[_i].reason);
   ck_assert_int_eq(parse(s, bad_texts[_i].text, NULL), ZP_BAD_INPUT);
   ck_assert_uint_eq(zp_scenario_count(s), 2); /* as before */
-  ck_assert_double_eq(def_of(s, 1).load.mass, 7e-3);
-  ck_assert_double_eq(def_of(s, 1).ribbon.length, 0.095);
+  ck_assert_double_eq(case_of(s, 1).load.mass, 7e-3);
+  ck_assert_double_eq(case_of(s, 1).ribbon.length, 0.095);
 }
 
 /* Arguments of --set that are refused. */
@@ -407,7 +400,7 @@ static const struct {
 TESTS(test_bad_argument, 0, LENGTH_OF(bad_arguments)) {
   ZpScenario *s = scenario_of("drive.voltage: 3 kV");
   ck_says(zp_scenario_set(s, bad_arguments[_i].text, &err), ZP_BAD_INPUT, bad_arguments[_i].message);
-  ck_assert_double_eq(def_of(s, 0).drive.voltage, 3e3);
+  ck_assert_double_eq(case_of(s, 0).drive.voltage, 3e3);
 }
 
 TEST(test_layers) {
@@ -420,7 +413,7 @@ TEST(test_layers) {
   ck_assert_int_eq(parse(s, "load.mass: 2 g\nribbon.thickness: 40 um\n", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(s), 1);
   ck_assert_int_eq(zp_scenario_set(s, "preset=paper-code", &err), ZP_OK);
-  ZpActuatorDef def = def_of(s, 0);
+  ZpActuatorDef def = case_of(s, 0);
   ck_assert_double_eq(def.drive.voltage, 6e3);
   ck_assert_double_eq(def.load.mass, 2e-3);
   ck_assert_double_eq(def.gravity, 1);
@@ -439,10 +432,10 @@ TEST(test_lists) {
   ck_assert_int_eq(list[0], zp_key_find("load.mass"));
   ck_assert_int_eq(list[1], zp_key_find("mesh.nodes"));
   ck_assert_int_eq(list[2], zp_key_find("solver.time_step"));
-  ck_assert_double_eq(def_of(s, 0).load.mass, 8e-3);
-  ck_assert_int_eq(def_of(s, 2).mesh.nodes, 130);
-  ck_assert_double_eq(def_of(s, 3).load.mass, 12e-3);
-  ck_assert_int_eq(def_of(s, 4).mesh.nodes, 61);
+  ck_assert_double_eq(case_of(s, 0).load.mass, 8e-3);
+  ck_assert_int_eq(case_of(s, 2).mesh.nodes, 130);
+  ck_assert_double_eq(case_of(s, 3).load.mass, 12e-3);
+  ck_assert_int_eq(case_of(s, 4).mesh.nodes, 61);
   assert_round_trip(s);
   ZpActuatorDef def = {0};
   ck_assert_int_eq(zp_scenario_def(s, 6, &def, &err), ZP_BAD_INPUT);
@@ -464,10 +457,10 @@ TEST(distributions_are_sampled) {
   ck_assert_uint_eq(zp_scenario_count(s), 128);
   double sum = 0;
   for (size_t i = 0; i < 128; i++) {
-    const ZpActuatorDef def = def_of(s, i);
+    const ZpActuatorDef def = case_of(s, i);
     ck_assert_double_eq(def.load.mass, i < 64 ? 8e-3 : 20e-3);
     ck_assert(def.ribbon.width > 10e-3 && def.ribbon.width < 12e-3);
-    ck_assert_double_eq(def.ribbon.width, def_of(s, i % 64).ribbon.width);
+    ck_assert_double_eq(def.ribbon.width, case_of(s, i % 64).ribbon.width);
     sum += def.ribbon.thickness / 128;
   }
   ck_assert_double_eq_tol(sum, 50e-6, 2e-9); /* 2.7e-10 measured */
@@ -475,7 +468,7 @@ TEST(distributions_are_sampled) {
   ZpScenario *word = scenario_of("load.mass: [8 g, 20 g]\nribbon.width: uniform(10 mm, 12 mm)");
   ck_assert_int_eq(zp_scenario_set(word, "ribbon.thickness= normal( 50 um , 1 um )", &err), ZP_OK);
   ck_assert_int_eq(zp_scenario_set(word, "sampling.count=64", &err), ZP_OK);
-  ck_assert_double_eq(def_of(word, 77).ribbon.thickness, def_of(s, 77).ribbon.thickness);
+  ck_assert_double_eq(case_of(word, 77).ribbon.thickness, case_of(s, 77).ribbon.thickness);
   ck_assert_int_eq(zp_scenario_set(word, "sampling.indices=true", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(word), 2 * 64 * 4);
 }
@@ -528,8 +521,8 @@ TEST(materials_have_tolerances) {
                               "sampling: {tolerances: materials, count: 4}\n");
   ck_assert_uint_eq(count_varied(s), 3 + 4);
   ck_assert_uint_eq(zp_scenario_count(s), 4);
-  ck_assert_double_eq(def_of(s, 3).ribbon.density, 8000);
-  ck_assert(def_of(s, 0).ribbon.young_modulus != def_of(s, 1).ribbon.young_modulus);
+  ck_assert_double_eq(case_of(s, 3).ribbon.density, 8000);
+  ck_assert(case_of(s, 0).ribbon.young_modulus != case_of(s, 1).ribbon.young_modulus);
   assert_written(s, "young_modulus: lognormal(110 GPa, 0.04)");
   assert_round_trip(s);
   ck_assert_int_eq(zp_scenario_set(s, "ribbon.young_modulus=normal(100 GPa, 1 GPa)", NULL), ZP_OK);
@@ -537,7 +530,7 @@ TEST(materials_have_tolerances) {
   assert_written(s, "young_modulus: normal(100 GPa, 1 GPa)");
   ck_assert_int_eq(zp_scenario_set(s, "sampling.tolerances=given", NULL), ZP_OK);
   ck_assert_uint_eq(count_varied(s), 1);
-  ck_assert_double_eq(def_of(s, 0).ribbon.yield_stress, 430e6);
+  ck_assert_double_eq(case_of(s, 0).ribbon.yield_stress, 430e6);
 }
 
 TEST(lists_together) {
@@ -548,7 +541,7 @@ TEST(lists_together) {
                               "sampling.together: ribbon.thickness, ribbon.length");
   ck_assert_uint_eq(zp_scenario_count(s), 6);
   for (size_t i = 0; i < 6; i++) {
-    def = def_of(s, i);
+    def = case_of(s, i);
     ck_assert_double_eq_tol(def.ribbon.length, 90e-3 + 10e-3 * (double)(i / 2), 1e-15);
     ck_assert_double_eq_tol(def.ribbon.thickness, 40e-6 + 10e-6 * (double)(i / 2), 1e-18);
     ck_assert_double_eq(def.load.mass, i % 2 ? 20e-3 : 8e-3);
@@ -618,9 +611,9 @@ TESTS(test_ranges, 0, LENGTH_OF(ranges)) {
 /* The preset gives other values at each N: they cannot be written as one. */
 TEST(test_preset_with_list) {
   ZpScenario *s = scenario_of("preset: paper-code\nmesh.nodes: [21, 61, 130]\nload.mass: [8 g, 10 g]");
-  ck_assert_double_eq(def_of(s, 0).damping.drag, 10);
-  ck_assert_double_eq(def_of(s, 1).damping.drag, 100);
-  ck_assert_double_eq(def_of(s, 5).damping.drag, 0.1);
+  ck_assert_double_eq(case_of(s, 0).damping.drag, 10);
+  ck_assert_double_eq(case_of(s, 1).damping.drag, 100);
+  ck_assert_double_eq(case_of(s, 5).damping.drag, 0.1);
   char *text = written(s);
   ck_assert_ptr_nonnull(strstr(text, "# damping.drag: "));
   assert_round_trip(s);
@@ -792,7 +785,7 @@ TEST(test_texts) {
                               "\"0.5\"\ndata.file: /folder/a b.csv\n");
   char *text = written(s);
   ZpScenario *back = scenario_of(text);
-  ZpActuatorDef def = def_of(back, 0), first = def_of(s, 0);
+  ZpActuatorDef def = case_of(back, 0), first = case_of(s, 0);
   ck_assert_str_eq(def.calibrate.fit, "a \"b\" \\ c, [d] é");
   ck_assert_str_eq(def.calibrate.x, "it's # not a comment");
   ck_assert_str_eq(def.calibrate.y, "0.5");
@@ -801,7 +794,7 @@ TEST(test_texts) {
   ZpError err;
   ck_assert_int_eq(zp_scenario_set(s, "calibrate.fit=ribbon.width, ribbon.thickness", &err), ZP_OK);
   ck_assert_int_eq(zp_scenario_set(s, "data.file=b.csv", &err), ZP_OK);
-  def = def_of(s, 0);
+  def = case_of(s, 0);
   ck_assert_str_eq(def.calibrate.fit, "ribbon.width, ribbon.thickness");
   ck_assert(*def.data.file == '/' && strstr(def.data.file, "/b.csv"));
   ck_says(zp_scenario_set(s, "calibrate.x=[a, b]", &err), ZP_BAD_INPUT, "takes one text");
@@ -843,7 +836,7 @@ static char *keys_text(ZpKeysFormat format) {
 TEST(test_keys_yaml) {
   char *text = keys_text(ZP_KEYS_YAML);
   ZpScenario *s = scenario_of(text);
-  ZpActuatorDef def = def_of(s, 0), expected = zp_actuator_def_default();
+  ZpActuatorDef def = case_of(s, 0), expected = zp_actuator_def_default();
   assert_same_def(&def, &expected);
 }
 
@@ -988,7 +981,7 @@ TEST(members_vary_in_the_order_of_the_table) {
   for (size_t k = 0; k < keys; k++)
     ck_assert_str_eq(ZP_KEY_NAME(key[k]), order[k]);
   ck_assert_uint_eq(zp_scenario_count(s), 16);
-  ZpActuatorDef def = def_of(s, 15);
+  ZpActuatorDef def = case_of(s, 15);
   ck_assert_double_eq(zp_def_number(&def, "member_2.insulator.thickness"), 100e-6);
   ck_assert_double_eq(zp_def_number(&def, "member_12.ribbon.thickness"), 60e-6);
   char *text = written(s), *again = written(scenario_of(text));

@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "fit/fit.h"
+#include "sample/distribution.h"
 
 /* Share of the normal distribution above x. */
 static double above(double x) {
-  return 0.5 * erfc(x * M_SQRT1_2);
+  return zp_normal_share(-x);
 }
 
 /* Of chi-square, by Wilson and Hilferty's cube root. */

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "def/def.h"
 #include "fit/fit.h"
+#include "sample/distribution.h"
 
 typedef struct Law {
   const char *what, *key;
@@ -91,7 +92,7 @@ static double chance_of(const ZpFit *fit, double fall, double square, int tried)
   if (!(freedom > 0) || !(left > 0)) return 1;
   const double t2 = fall / (fit->sigma ? fmax(1, left) : left);
   const double normal = (8 * freedom + 1) / (8 * freedom + 3) * sqrt(freedom * log1p(t2 / freedom));
-  return fmin(1, tried * 0.5 * erfc(normal * M_SQRT1_2));
+  return fmin(1, tried * zp_normal_share(-normal));
 }
 
 ZpFitMissing zp_fit_find_missing(ZpFit *fit, const ZpFitPoint *best) {

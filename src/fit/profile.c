@@ -29,14 +29,15 @@ static bool correct(Profile *p, const bool *held) {
   enum { MOST = 3 };
   static const double little = 0.03; /* of the rise */
   for (int k = 0; k < MOST; k++) {
-    ZpFitPoint linear = p->at;
-    double falls;
-    linear.J = p->best->J;
-    if (!zp_fit_step(p->fit, &linear, held, p->at.z, &falls)) return false;
+    ZpFitPoint before = p->at;
+    double to[ZP_FIT_MOST], falls;
+    before.J = p->best->J;
+    if (!zp_fit_step(p->fit, &before, held, to, &falls)) return false;
     if (falls < little * p->rise) return true;
+    memcpy(p->at.z, to, (size_t)p->fit->n * sizeof *to);
     zp_fit_find_values(p->fit, &p->at);
-    if (p->at.square < linear.square) continue;
-    memcpy(p->at.z, linear.z, sizeof p->at.z);
+    if (p->at.square < before.square) continue;
+    memcpy(p->at.z, before.z, sizeof p->at.z);
     return false;
   }
   return false;

@@ -8,6 +8,7 @@
 #include "def/check.h"
 #include "fit/fit.h"
 #include "io/range.h"
+#include "io/value.h"
 
 const ZpFitNumber zp_fit_number[ZP_FIT_KINDS] = {
     [ZP_FIT_STROKE] = {"stroke", "m", 0, NULL, true},    [ZP_FIT_DISPLACEMENT] = {"displacement", "m", 0, NULL, true},
@@ -59,7 +60,7 @@ static bool is_of_member(int key) {
 
 bool zp_fit_takes(int key) {
   if (!zp_key_in_def(key) || is_of_member(key)) return false; /* a fit is of one actuator */
-  return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
+  return zp_value_is_real(zp_key(key));
 }
 
 /* "ribbon.young_modulus = 100 GPa .. 250 GPa": bounds instead of multiples of the start value. */

@@ -168,19 +168,19 @@ static void turn_ways(ZpFit *fit, const Descent *d) {
 }
 
 static void renew(ZpFit *fit, Descent *d) {
-  if (fit->slopes != ZP_FIT_EXACT) turn_ways(fit, d);
+  turn_ways(fit, d);
   zp_fit_go_to(fit, d->point);
   d->kept = false;
   d->foreseen = 0;
 }
 
-/* More damping, the more so the more often; after a step, more or less, as the squares fell by less or more than half
- * of what was foreseen (Nielsen). */
+/* More damping, the more so the more often. */
 static void damp(Descent *d) {
   d->damping *= d->growth;
   d->growth *= 2;
 }
 
+/* After a step: more damping or less, as the squares fell by less or more than half of what was foreseen (Nielsen). */
 static void relax(Descent *d, double ratio) {
   const double off = 2 * fmin(ratio, 2) - 1;
   d->damping = fmax(d->damping * fmax(1 - off * off * off, 1. / 3), 1e-12);

@@ -66,6 +66,8 @@ static int best_of(const Start *start, int count) {
   return best;
 }
 
+static const double searching = 1e-4; /* tolerance of the time steps of a search over a part of the time */
+
 /* Go from a start to the minimum over a part of the time. */
 static void descend_from(ZpFit *fit, double horizon, Start *start, ZpFitPoint *point) {
   enum { MOST = 20 };
@@ -75,6 +77,7 @@ static void descend_from(ZpFit *fit, double horizon, Start *start, ZpFitPoint *p
   zp_fit_go_to(fit, point);
   start->ended = zp_fit_descend(fit, NULL, MOST, point);
   keep(point, start);
+  start->tolerance = fit->tolerance;
   fit->horizon = 1;
 }
 
@@ -128,14 +131,12 @@ static double error_of_steps(ZpFit *fit, ZpFitPoint *at, double *change) {
 /* A tolerance with which the errors of the steps are small beside the standard errors. */
 static void find_tolerance(ZpFit *fit, ZpFitPoint *at) {
   static const double little = 0.1, least = 1e-5;
-  double *change = fit->runs > 0 ? calloc(fit->rows, sizeof *change) : NULL, error = INFINITY;
-  if (fit->runs > 0 && !change) fit->status = zp_fail_memory(fit->err);
+  double *change = calloc(fit->rows, sizeof *change), error = INFINITY;
+  if (!change) fit->status = zp_fail_memory(fit->err);
   while (change && zp_fit_goes_on(fit) && at->good && fit->tolerance > least && !(error < little))
     error = error_of_steps(fit, at, change);
   free(change);
 }
-
-static const double searching = 1e-4; /* tolerance of the time steps of a search over a part of the time */
 
 /* Are residuals noise beyond doubt? Doubt costs no more than another start. */
 static bool is_clean(const ZpFit *fit, const ZpFitPoint *point) {
@@ -148,14 +149,12 @@ static bool is_clean(const ZpFit *fit, const ZpFitPoint *point) {
  * only accurate steps give a sum of squares that is smooth => whether the residuals are noise. */
 static bool follow_motion(ZpFit *fit, Start *start, ZpFitPoint *point) {
   static const double horizon[] = {0.15, 0.4};
-  fit->tolerance = searching;
-  for (size_t k = 0; fit->runs > 0 && k < sizeof horizon / sizeof horizon[0]; k++)
+  for (size_t k = 0; k < sizeof horizon / sizeof horizon[0]; k++)
     descend_from(fit, horizon[k], start, point);
   memcpy(point->z, start->z, sizeof point->z);
   zp_fit_go_to(fit, point);
   find_tolerance(fit, point);
   descend_from(fit, 1, start, point);
-  start->tolerance = fit->tolerance;
   return point->good && is_clean(fit, point);
 }
 
@@ -194,18 +193,19 @@ static void refine(ZpFit *fit, ZpFitPoint *best) {
   best->ended = zp_fit_descend(fit, NULL, MOST, best);
 }
 
-/* Follow the minima over the closing, then those of further starts, until the residuals of a record are noise; where
- * nothing moves, all of the minima. */
-static void follow_all(ZpFit *fit, Start *start, int count, ZpFitStarts *starts, ZpFitPoint *point) {
+/* Follow the minima over the closing, then those of further starts, until the residuals of a record are noise => how
+ * many. Where nothing moves, there is nothing to follow. */
+static int follow_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   enum { MOST = 4 };
   const int minima = descend_closing(fit, start, count, point);
-  const int most = fit->runs == 0 ? minima : count < MOST ? count : MOST;
-  for (bool clean = false; starts->tried < most && !(clean && fit->runs > 0) && zp_fit_goes_on(fit);) {
-    Start *next = &start[starts->tried++];
+  int tried = 0;
+  if (fit->runs == 0) return minima;
+  for (bool clean = false; tried < count && tried < MOST && !clean && zp_fit_goes_on(fit); tried++) {
     fit->tolerance = searching;
-    if (starts->tried > minima) descend_from(fit, 0, next, point);
-    clean = follow_motion(fit, next, point);
+    if (tried >= minima) descend_from(fit, 0, &start[tried], point);
+    clean = follow_motion(fit, &start[tried], point);
   }
+  return tried;
 }
 
 /* The best of the minima, and the best other one. */
@@ -240,7 +240,7 @@ bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts) {
   }
   prepare(fit);
   look(fit, start, count, best);
-  follow_all(fit, start, count, starts, best);
+  starts->tried = follow_all(fit, start, count, best);
   compare(fit, start, starts);
   if (zp_fit_goes_on(fit)) {
     memcpy(best->z, start->z, sizeof best->z);

@@ -3,6 +3,10 @@
 #include <math.h>
 #include <stdbool.h>
 
+double zp_normal_share(double x) {
+  return 0.5 * erfc(-x / sqrt(2));
+}
+
 /* Newton's method for the tail's share p(x) = erfc(x / sqrt(2)) / 2 from x = 0: where x > 0 it is convex and falls, so
  * that every step stays on the near side of the root, and goes on until rounding turns it back. */
 double zp_normal_quantile(double share) {
@@ -10,7 +14,7 @@ double zp_normal_quantile(double share) {
   const double tail = fmin(share, 1 - share), per_density = sqrt(2 * acos(-1.0));
   double x = 0, step = 1;
   for (int i = 0; i < STEPS_MOST && step > 1e-16 * (1 + x); i++) {
-    step = (0.5 * erfc(x / sqrt(2)) - tail) * per_density * exp(0.5 * x * x);
+    step = (zp_normal_share(-x) - tail) * per_density * exp(0.5 * x * x);
     x += step;
   }
   return share < 0.5 ? -x : x;
@@ -20,15 +24,10 @@ static bool is_cut(const ZpDistribution *d) {
   return d->low < d->high;
 }
 
-/* The share of the normal distribution below x. */
-static double normal_share(double x) {
-  return 0.5 * erfc(-x / sqrt(2));
-}
-
 double zp_conditional_score(const ZpDistribution *d, double mean, double deviation, double share) {
   if (!is_cut(d)) return zp_normal_quantile(share);
-  const double below = normal_share(((d->low - d->a) / d->b - mean) / deviation);
-  const double up_to = normal_share(((d->high - d->a) / d->b - mean) / deviation);
+  const double below = zp_normal_share(((d->low - d->a) / d->b - mean) / deviation);
+  const double up_to = zp_normal_share(((d->high - d->a) / d->b - mean) / deviation);
   return zp_normal_quantile(below + share * (up_to - below));
 }
 

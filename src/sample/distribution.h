@@ -26,6 +26,9 @@ double zp_quantile(const ZpDistribution *distribution, double share);
 double zp_conditional_score(const ZpDistribution *distribution, double mean, double deviation, double share);
 double zp_conditional_value(const ZpDistribution *distribution, double mean, double deviation, double score);
 
+/* The share of the normal distribution of mean 0 and standard deviation 1 below x. */
+double zp_normal_share(double x);
+
 /* The quantile of the normal distribution of mean 0 and standard deviation 1. */
 double zp_normal_quantile(double share);
 
