@@ -211,7 +211,7 @@ def report(count, tally, covered, flagged):
     every = [has for of_name in covered.values() for has in of_name]
     print(f"| all | {len(every)} | {100 * sum(every) / max(len(every), 1):.1f} % |")
     missed = len(every) - sum(every)
-    if tally.get("wrong", 0) > max(1, count // 50) or missed > max(3, len(every) // 8):
+    if tally.get("wrong", 0) > count // 50 or missed > max(3, len(every) // 8):
         sys.exit("too many fits are wrong, or intervals miss the true value")
 
 

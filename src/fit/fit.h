@@ -173,6 +173,9 @@ typedef struct ZpFitPoint {
 /* Its arrays; false if there is no memory. Free `fitted` afterwards. */
 bool zp_fit_open_point(ZpFit *fit, ZpFitPoint *point);
 
+/* Each has arrays of its own. */
+void zp_fit_copy_point(const ZpFit *fit, const ZpFitPoint *from, ZpFitPoint *to);
+
 /* Steps of differences as parts of the keys, where nothing is known about their errors. */
 void zp_fit_reset_ways(ZpFit *fit);
 

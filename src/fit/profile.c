@@ -124,6 +124,58 @@ static bool find_all(Profile *p, ZpFitInterval *interval) {
   return !p->better;
 }
 
+/* One more step along the valley of a parameter, from a point there that has derivatives, and down to its floor. */
+static void walk(Profile *p, int which, double step) {
+  enum { MOST = 3 };
+  bool held[ZP_FIT_MOST] = {false};
+  double all[ZP_FIT_MOST];
+  held[which] = true;
+  for (int k = 0; k < p->fit->n; k++)
+    all[k] = p->C[k][which] / p->C[which][which] * step;
+  put(p->fit, all, p->at.z);
+  zp_fit_find_values(p->fit, &p->at);
+  zp_fit_descend(p->fit, held, MOST, &p->at);
+}
+
+/* Faces touch and part so often that the floor of a valley may have several minima: is there a better one on one side,
+ * as far as the floor does not rise beyond hope? */
+static void look_beyond(Profile *p, int which, double variance, double side) {
+  enum { MOST = 10 };
+  static const double standard_errors = 4, hopeless = 100, part = 0.5;
+  const double s = standard_errors * sqrt(variance * p->C[which][which]), better = 2 * p->fit->scatter + variance;
+  const double most = variance * fmax(hopeless, part * (double)p->fit->rows);
+  zp_fit_copy_point(p->fit, p->best, &p->at);
+  for (int k = 0; k < MOST && !p->better && zp_fit_goes_on(p->fit); k++) {
+    const double before = p->at.z[which];
+    walk(p, which, side * s);
+    const double rise = p->at.square - p->best->square;
+    p->better = p->at.good && rise < -better;
+    if (rise > most || p->at.z[which] == before) return;
+  }
+}
+
+/* The key that the data know least. */
+static int loosest_of(const Profile *p) {
+  int loosest = 0;
+  for (int k = 1; k < p->fit->keys; k++)
+    if (sqrt(p->C[k][k]) / zp_fit_size(p->best->z[k]) >
+        sqrt(p->C[loosest][loosest]) / zp_fit_size(p->best->z[loosest]))
+      loosest = k;
+  return loosest;
+}
+
+/* Is there no better minimum along the valley? A search, for which derivatives may be rough. */
+static bool is_lowest(Profile *p, double variance) {
+  ZpFit *fit = p->fit;
+  const double enough = fit->enough, rough = fit->rough;
+  if (fit->runs == 0 || fit->keys == 0 || !zp_fit_covariance(fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
+  fit->slopes = ZP_FIT_ONE_SIDED, fit->enough = 0.3, fit->rough = 10;
+  for (double side = -1; side < 2 && !p->better; side += 2)
+    look_beyond(p, loosest_of(p), variance, side);
+  fit->slopes = ZP_FIT_CENTRAL, fit->enough = enough, fit->rough = rough;
+  return !p->better;
+}
+
 static void go_to_better(Profile *p) {
   enum { MOST = 60 };
   memcpy(p->best->z, p->at.z, sizeof p->best->z);
@@ -139,13 +191,13 @@ double zp_fit_level(const ZpFit *fit) {
 }
 
 void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval, ZpFitProfiles *points) {
-  enum { MOST = 4 };
+  enum { MOST = 8 };
   Profile p = {.fit = fit, .best = best, .rise = zp_fit_level(fit) * variance, .points = points};
   points->count = 0;
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
   bool whole = false;
   for (int k = 0; k < MOST && !whole; k++) {
-    whole = find_all(&p, interval);
+    whole = is_lowest(&p, variance) && find_all(&p, interval);
     if (!whole) go_to_better(&p);
   }
   for (int k = 0; k < fit->n && !whole; k++)

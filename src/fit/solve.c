@@ -102,11 +102,16 @@ bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, doubl
 }
 
 /* Both have arrays of their own, J behind the fitted values. */
-static void copy_point(const ZpFit *fit, const ZpFitPoint *from, bool with_slopes, ZpFitPoint *to) {
+static void copy_values(const ZpFit *fit, const ZpFitPoint *from, ZpFitPoint *to) {
   memcpy(to->z, from->z, sizeof to->z);
-  memcpy(to->fitted, from->fitted, fit->rows * (size_t)(with_slopes ? fit->n + 1 : 1) * sizeof *to->fitted);
+  memcpy(to->fitted, from->fitted, fit->rows * sizeof *to->fitted);
   to->square = from->square;
   to->good = from->good;
+}
+
+void zp_fit_copy_point(const ZpFit *fit, const ZpFitPoint *from, ZpFitPoint *to) {
+  copy_values(fit, from, to);
+  memcpy(to->J, from->J, fit->rows * (size_t)fit->n * sizeof *to->J);
 }
 
 bool zp_fit_open_point(ZpFit *fit, ZpFitPoint *point) {
@@ -214,7 +219,10 @@ static bool take(ZpFit *fit, Descent *d, double falls) {
   const bool renews = d->keeps && (better ? fell < poor * falls : d->kept);
   if (better) {
     if (d->keeps) learn(fit, d);
-    copy_point(fit, &d->trial, !d->keeps, d->point);
+    if (d->keeps)
+      copy_values(fit, &d->trial, d->point);
+    else
+      zp_fit_copy_point(fit, &d->trial, d->point);
     d->kept = d->keeps;
     d->foreseen += falls;
     relax(d, fell / falls);
