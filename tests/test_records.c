@@ -125,6 +125,35 @@ TEST(ways_are_independent) {
   zp_fit_close(&fit);
 }
 
+/* A point of any profile whose sum of squares is low enough lies within the intervals of all parameters. */
+TEST(points_are_within_all_intervals) {
+  const ZpActuatorDef def = in_a_valley(2e-5);
+  ZpError err;
+  ZpFit fit;
+  ZpFitPoint best;
+  ZpFitStarts starts;
+  ZpFitInterval interval[ZP_FIT_MOST];
+  static ZpFitProfiles points;
+  ck_assert_int_eq(zp_fit_open(&def, &fit, &err), ZP_OK);
+  ck_assert(zp_fit_open_point(&fit, &best));
+  ck_assert(zp_fit_solve(&fit, &best, &starts));
+  const double variance = zp_fit_judge(&fit, &best).variance;
+  zp_fit_intervals(&fit, variance, &best, interval, &points);
+  size_t within = 0;
+  for (size_t i = 0; i < points.count; i++) {
+    if (points.point[i].rise > 0.97 * variance * zp_fit_level(&fit)) continue;
+    within++;
+    for (int k = 0; k < fit.n; k++) {
+      ck_assert(!(points.point[i].z[k] < interval[k].low));
+      ck_assert(!(points.point[i].z[k] > interval[k].high));
+    }
+  }
+  printf("%zu of %zu points are within\n", within, points.count);
+  ck_assert_uint_ge(within, 4);
+  free(best.fitted);
+  zp_fit_close(&fit);
+}
+
 /* Rows that calibrate.skip_until and skip_after leave out do not count. */
 TEST(rows_are_skipped) {
   ZpActuatorDef def = recorded("");

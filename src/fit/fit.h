@@ -258,7 +258,7 @@ typedef struct ZpFitProfilePoint {
   double z[ZP_FIT_MOST]; /* of all parameters */
 } ZpFitProfilePoint;
 
-enum { ZP_FIT_PROFILES = 22 * ZP_FIT_MOST };
+enum { ZP_FIT_PROFILES = 64 * ZP_FIT_MOST };
 
 /* Points of the profiles of all parameters, in the order in which they were found. */
 typedef struct ZpFitProfiles {

@@ -51,19 +51,58 @@ static void record(Profile *p, int which, double rise) {
   memcpy(point->z, p->at.z, sizeof point->z);
 }
 
-/* Rise of the sum of squares where parameter `held` is at z and the others fit best. */
-static double rise_at(Profile *p, int which, double z) {
-  enum { MOST = 12 };
+/* How far the sum of squares rises if the fit is linear. */
+static double parabola(const Profile *p, int which, double z) {
+  const double d = z - p->best->z[which];
+  return d * d / p->C[which][which];
+}
+
+/* From some values of all parameters along the valley of one, to its value z. */
+static void shift(Profile *p, const double *from, int which, double z) {
   double step[ZP_FIT_MOST];
-  bool held[ZP_FIT_MOST] = {false};
-  held[which] = true;
   for (int k = 0; k < p->fit->n; k++)
-    step[k] = p->C[k][which] / p->C[which][which] * (z - p->best->z[which]);
-  memcpy(p->at.z, p->best->z, sizeof p->at.z);
+    step[k] = p->C[k][which] / p->C[which][which] * (z - from[which]);
+  memcpy(p->at.z, from, sizeof p->at.z);
   put(p->fit, step, p->at.z);
   p->at.z[which] = z;
   zp_fit_find_values(p->fit, &p->at);
-  if (p->fit->n > 1 && !correct(p, held)) {
+}
+
+/* Values of all parameters at the known point whose parameter `which` is nearest to z; the best point is one. */
+static const double *nearest(const Profile *p, int which, double z) {
+  const double *found = p->best->z;
+  for (size_t i = 0; i < p->points->count; i++) {
+    const ZpFitProfilePoint *point = &p->points->point[i];
+    if (point->rise < p->rise && fabs(point->z[which] - z) < fabs(found[which] - z)) found = point->z;
+  }
+  return found;
+}
+
+/* To where the others may be if `which` is at z: along the valley from the best point, or from one that is known and
+ * nearer. */
+static void begin_at(Profile *p, int which, double z) {
+  const double *near = nearest(p, which, z);
+  shift(p, p->best->z, which, z);
+  if (near == p->best->z) return;
+  const double square = p->at.square;
+  shift(p, near, which, z);
+  if (p->at.square > square) shift(p, p->best->z, which, z);
+}
+
+/* Is the fit so far from linear that its derivatives have to be found again? */
+static bool is_bent(const Profile *p, int which) {
+  static const double off = 0.3, little = 0.1;
+  const double rise = p->at.square - p->best->square, expected = parabola(p, which, p->at.z[which]);
+  return fabs(rise - expected) > off * expected + little * p->rise;
+}
+
+/* Rise of the sum of squares where parameter `which` is at z and the others fit best. */
+static double rise_at(Profile *p, int which, double z) {
+  enum { MOST = 12 };
+  bool held[ZP_FIT_MOST] = {false};
+  held[which] = true;
+  begin_at(p, which, z);
+  if (p->fit->n > 1 && (!correct(p, held) || is_bent(p, which))) {
     zp_fit_go_to(p->fit, &p->at);
     zp_fit_descend(p->fit, held, MOST, &p->at);
   }
@@ -73,23 +112,38 @@ static double rise_at(Profile *p, int which, double z) {
   return rise;
 }
 
+/* The farthest point on one side that is known to belong within the interval; NULL: none. */
+static const ZpFitProfilePoint *farthest_within(const Profile *p, int which, double side) {
+  const ZpFitProfilePoint *farthest = NULL;
+  double most = 0;
+  for (size_t i = 0; i < p->points->count; i++) {
+    const ZpFitProfilePoint *point = &p->points->point[i];
+    const double s = side * (point->z[which] - p->best->z[which]);
+    if (point->rise < p->rise && s > most) most = s, farthest = point;
+  }
+  return farthest;
+}
+
 /* The end of an interval on one side; NAN: the bounds come first. */
 static double end_at(Profile *p, int which, double side) {
   enum { MOST = 10 };
   const double near = fmax(0.03, fmin(p->fit->scatter / p->rise, 0.3));
   const double from = p->best->z[which], bound = side > 0 ? p->fit->upper[which] : p->fit->lower[which];
   const double most = fabs(bound - from);
-  double low = 0, high = INFINITY, root_low = 0, root_high = 0, s = sqrt(p->rise * p->C[which][which]);
+  const ZpFitProfilePoint *known = farthest_within(p, which, side);
+  const double within = known ? fabs(known->z[which] - from) : 0;
+  double low = within, high = INFINITY, root_low = known ? sqrt(fmax(known->rise, 0) / p->rise) : 0, root_high = 0;
+  double s = fmax(sqrt(p->rise * p->C[which][which]), 1.1 * within);
   for (int k = 0; k < MOST && !p->better && !p->fit->stopped && p->fit->status == ZP_OK; k++) {
     s = fmin(s, most);
     const double share = rise_at(p, which, from + side * s) / p->rise, root = sqrt(fmax(share, 0));
-    if (fabs(share - 1) < near) return from + side * fmin(s / root, most);
+    if (fabs(share - 1) < near) return from + side * fmax(fmin(s / root, most), within);
     if (share < 1 && s >= most) return NAN;
     if (share < 1)
       low = s, root_low = root;
     else
       high = s, root_high = root;
-    if (high - low < 1e-3 * s) return from + side * s;
+    if (high - low < 0.01 * s) return from + side * s;
     s = isfinite(high) ? low + (high - low) * fmin(fmax((1 - root_low) / (root_high - root_low), 0.05), 0.95)
                        : s * fmin(fmax(1 / fmax(root, 0.1), 1.2), 3);
   }
@@ -108,19 +162,29 @@ static int partner_of(const Profile *p, int which) {
   return partner;
 }
 
+static void find_one(Profile *p, int which, ZpFitInterval *interval) {
+  p->gave_up = false;
+  interval->low = end_at(p, which, -1);
+  if (!p->better) interval->high = end_at(p, which, 1);
+  interval->lost = p->gave_up;
+  interval->trades = isnan(interval->low) || isnan(interval->high) ? partner_of(p, which) : -1;
+}
+
+/* Once more, if a point of another profile lies within this interval by its sum of squares, but not by its value. */
+static void widen(Profile *p, int which, ZpFitInterval *interval) {
+  const ZpFitProfilePoint *low = farthest_within(p, which, -1), *high = farthest_within(p, which, 1);
+  if ((low && interval->low > low->z[which]) || (high && interval->high < high->z[which])) find_one(p, which, interval);
+}
+
 /* False: a better point was found. */
 static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
-  p->points->count = 0;
   if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
-  for (int k = 0; k < p->fit->n && !p->better; k++) {
-    p->gave_up = false;
-    interval[k].low = end_at(p, k, -1);
-    if (!p->better) interval[k].high = end_at(p, k, 1);
-    interval[k].lost = p->gave_up;
-    if (isnan(interval[k].low) || isnan(interval[k].high)) interval[k].trades = partner_of(p, k);
-  }
+  for (int k = 0; k < p->fit->n && !p->better; k++)
+    find_one(p, k, &interval[k]);
+  for (int k = 0; k < p->fit->n && !p->better; k++)
+    widen(p, k, &interval[k]);
   return !p->better;
 }
 
@@ -150,6 +214,7 @@ static void look_beyond(Profile *p, int which, double variance, double side) {
     walk(p, which, side * s);
     const double rise = p->at.square - p->best->square;
     p->better = p->at.good && rise < -better;
+    if (rise < p->rise) record(p, which, rise);
     if (rise > most || p->at.z[which] == before) return;
   }
 }
@@ -158,8 +223,7 @@ static void look_beyond(Profile *p, int which, double variance, double side) {
 static int loosest_of(const Profile *p) {
   int loosest = 0;
   for (int k = 1; k < p->fit->keys; k++)
-    if (sqrt(p->C[k][k]) / zp_fit_size(p->best->z[k]) >
-        sqrt(p->C[loosest][loosest]) / zp_fit_size(p->best->z[loosest]))
+    if (sqrt(p->C[k][k]) / zp_fit_size(p->best->z[k]) > sqrt(p->C[loosest][loosest]) / zp_fit_size(p->best->z[loosest]))
       loosest = k;
   return loosest;
 }
@@ -197,6 +261,7 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
   bool whole = false;
   for (int k = 0; k < MOST && !whole; k++) {
+    points->count = 0;
     whole = is_lowest(&p, variance) && find_all(&p, interval);
     if (!whole) go_to_better(&p);
   }
