@@ -306,7 +306,7 @@ TEST(results_of_another_process_are_whole) {
 /* A batch follows its neighbours within a chunk only, as a campaign does: the first case of each chunk is that of a run
  * of its own, to the last bit. */
 TEST(chunks_of_a_batch_begin_afresh) {
-  ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=9",
+  ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=31",
                                   "output.errors=false");
   ZpBatch batch;
   ZpError err;
