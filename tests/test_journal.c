@@ -329,6 +329,27 @@ TEST(chunks_of_a_batch_begin_afresh) {
   zp_batch_free(&batch);
 }
 
+/* A case starts from the one before it along the fastest list in which it is not the first, if both are in one chunk.
+ */
+TEST(cases_start_along_every_list) {
+  ZpScenario *grid = SCENARIO("study=limits", "ribbon.thickness=80 um .. 120 um : 10", "load.mass=2 g .. 20 g : 10"),
+             *long_rows =
+                 SCENARIO("study=limits", "ribbon.thickness=80 um .. 120 um : 100", "load.mass=2 g .. 20 g : 100"),
+             *rest = SCENARIO("study=stationary", "load.mass=2 g .. 20 g : 100");
+  static const size_t from[][2] = {{0, 0}, {5, 4}, {10, 0}, {19, 18}, {20, 20}, {21, 20}, {30, 20}};
+  size_t last[20];
+  ck_assert_uint_eq(zp_case_chunk(grid), 20);
+  for (size_t i = 0; i < sizeof from / sizeof from[0]; i++)
+    ck_assert_uint_eq(zp_case_neighbour(grid, from[i][0]), from[i][1]);
+  zp_case_last(grid, 20, 40, last);
+  ck_assert_uint_eq(last[0], 30);
+  ck_assert_uint_eq(last[3], 24);
+  ck_assert_uint_eq(last[19], 39);
+  ck_assert_uint_eq(zp_case_chunk(long_rows), 50);
+  ck_assert_uint_eq(zp_case_neighbour(long_rows, 100), 100);
+  ck_assert_uint_eq(zp_case_neighbour(rest, 1), 1);
+}
+
 /* The linker sends these calls of the library here. With several threads the check of the first wrong case waits until
  * the second one has been noted, which ends with a lock that is released. */
 enum { FIRST_WRONG = 300, SECOND_WRONG = 650 };

@@ -74,9 +74,10 @@ static size_t row_of(const ZpScenario *scenario) {
 
 /* Chunks of about `cases` cases that consist of whole rows, or of equal parts of one. */
 static size_t in_rows(const ZpScenario *scenario, size_t cases) {
-  const size_t row = row_of(scenario), rows = at_most((cases + row - 1) / row, ZP_CHUNK_MOST / row);
-  const size_t parts = (row + cases - 1) / cases;
-  return rows > 0 && parts == 1 ? rows * row : (row + parts - 1) / parts;
+  const size_t row = row_of(scenario), shortest = (row + ZP_CHUNK_MOST - 1) / ZP_CHUNK_MOST;
+  const size_t parts = row / cases > shortest ? row / cases : shortest;
+  if (parts > 1) return (row + parts - 1) / parts;
+  return at_most((cases + row - 1) / row, ZP_CHUNK_MOST / row) * row;
 }
 
 /* The first case of a chunk starts from scratch and takes as long as some 6 others. A small sweep has about 8 chunks,

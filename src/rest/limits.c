@@ -263,14 +263,27 @@ static bool is_fine(const Finder *f, double voltage) {
   return zp_mesh_resolution(f->model, voltage) > fine;
 }
 
-/* Is the present point the limit? It is closed if the neighbour's is, and it is not far away. */
-static bool is_alike(Finder *f, const ZpLimit *near, bool load, double near_gap) {
+/* Is the present point the limit? It is not far from the neighbour's. A limit point is met before the gap at which the
+ * actuator counts as closed. */
+static bool is_limit(Finder *f, const ZpLimit *near, ZpLimitKind kind) {
   static const double farthest = 0.5;
   ZpStatics *s = &f->rest->statics;
-  const double closed = f->rest->track.limit, gap = zp_closing_gap(s, NULL), value = load ? s->load : s->U;
-  bool sided = near->end == ZP_TRACK_EVENT || (near_gap <= 2 * closed) == (gap <= 2 * closed);
-  bool within = load ? value > 0 : value <= f->top;
-  return sided && within && fabs(value / near->value - 1) <= farthest;
+  const bool load = kind == ZP_LIMIT_LOAD, closed = zp_closing_gap(s, NULL) <= f->rest->track.limit;
+  const double value = load ? s->load : s->U;
+  const bool before = near->end == ZP_TRACK_EVENT || closed == (kind == ZP_LIMIT_RELEASE);
+  const bool within = load ? value > 0 : value <= f->top;
+  return before && within && fabs(value / near->value - 1) <= farthest;
+}
+
+/* Is the limit point at the present point the highest crest of its ripple? The largest load must be; a voltage goes on
+ * to that crest. */
+static bool goes_to_crest(Finder *f, const ZpLimit *near, ZpLimitKind kind) {
+  ZpLimit *limit = &f->limits->limit[kind];
+  f->rest->track.fold.system = &f->rest->square; /* crests under this load */
+  if (limit->room > 0) return true;
+  if (kind == ZP_LIMIT_LOAD) return zp_quasistatic_look_around(f->rest, limit, 1) == ZP_NOTHING_HIGHER;
+  const double target = kind == ZP_LIMIT_RELEASE ? 0 : f->top;
+  return zp_quasistatic_climb(f->rest, target, limit) && is_limit(f, near, kind);
 }
 
 /* Solve for a limit, starting from the neighbour's. True if this is the limit: it is stable except along its null
@@ -288,14 +301,11 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   bool found = fold   ? zp_fold_approach(solver)
                : load ? go_to_event(f, near_gap)
                       : zp_fold_event(solver, zp_closing_gap, rest->track.limit, ZP_FOLD_EXACT);
-  if (!found || solver->negative > 0 || !is_alike(f, near, load, near_gap)) return false;
+  if (!found || solver->negative > 0 || !is_limit(f, near, kind)) return false;
   ZpLimit *limit = &f->limits->limit[kind];
   zp_quasistatic_note(rest, limit, near->end);
   limit->room = zp_quasistatic_room_left(rest, near, near_gap);
-  solver->system = &rest->square; /* crests under this load */
-  bool highest = !fold || limit->room > 0 ||
-                 (load ? zp_quasistatic_look_around(rest, limit, 1) == ZP_NOTHING_HIGHER
-                       : zp_quasistatic_climb(rest, kind == ZP_LIMIT_RELEASE ? 0 : f->top, limit));
+  bool highest = !fold || goes_to_crest(f, near, kind);
   f->limits->warm += highest;
   return highest;
 }
