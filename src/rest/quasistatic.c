@@ -185,7 +185,7 @@ static bool fall(ZpRest *r, double sign, size_t first) {
  * without which it would be slow at first. A closed one does not: a front that gives way hardly moves the opening, by
  * which this step is measured. */
 static bool fall_from(ZpRest *r, const ZpLimit *limit, double sign) {
-  static const double part = 2; /* of a step along the branch */
+  static const double part = 0.25; /* of a step along the branch */
   if (!r->was_closed) zp_fold_leave(&r->track.fold, limit->null, zp_closing_gap, -sign * part * look_step(r));
   return fall(r, sign, FROM_LIMIT);
 }
