@@ -306,7 +306,7 @@ TEST(results_of_another_process_are_whole) {
 /* A batch follows its neighbours within a chunk only, as a campaign does: the first case of each chunk is that of a run
  * of its own, to the last bit. */
 TEST(chunks_of_a_batch_begin_afresh) {
-  ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=9",
+  ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=31",
                                   "output.errors=false");
   ZpBatch batch;
   ZpError err;
@@ -327,6 +327,27 @@ TEST(chunks_of_a_batch_begin_afresh) {
   }
   ck_assert_uint_gt(followed, 0);
   zp_batch_free(&batch);
+}
+
+/* A case starts from the one before it along the fastest list in which it is not the first, if both are in one chunk.
+ */
+TEST(cases_start_along_every_list) {
+  ZpScenario *grid = SCENARIO("study=limits", "ribbon.thickness=80 um .. 120 um : 10", "load.mass=2 g .. 20 g : 10"),
+             *long_rows =
+                 SCENARIO("study=limits", "ribbon.thickness=80 um .. 120 um : 100", "load.mass=2 g .. 20 g : 100"),
+             *rest = SCENARIO("study=stationary", "load.mass=2 g .. 20 g : 100");
+  static const size_t from[][2] = {{0, 0}, {5, 4}, {10, 0}, {19, 18}, {20, 20}, {21, 20}, {30, 20}};
+  size_t last[20];
+  ck_assert_uint_eq(zp_case_chunk(grid), 20);
+  for (size_t i = 0; i < sizeof from / sizeof from[0]; i++)
+    ck_assert_uint_eq(zp_case_neighbour(grid, from[i][0]), from[i][1]);
+  zp_case_last(grid, 20, 40, last);
+  ck_assert_uint_eq(last[0], 30);
+  ck_assert_uint_eq(last[3], 24);
+  ck_assert_uint_eq(last[19], 39);
+  ck_assert_uint_eq(zp_case_chunk(long_rows), 50);
+  ck_assert_uint_eq(zp_case_neighbour(long_rows, 100), 100);
+  ck_assert_uint_eq(zp_case_neighbour(rest, 1), 1);
 }
 
 /* The linker sends these calls of the library here. With several threads the check of the first wrong case waits until

@@ -737,6 +737,35 @@ TESTS(test_limits_from_a_neighbour, 1, 2) {
 ALSO_NIGHTLY(test_limits_from_a_neighbour, 0, 1)
 ALSO_NIGHTLY(test_limits_from_a_neighbour, 2, 4)
 
+/* Keys that differ by up to a third. Newton's method on the limit points diverges from there, so what the neighbour's
+ * states lack to balance is taken away in parts. */
+TEST(limits_from_a_far_neighbour) {
+  static const double load[] = {4e-3, 5.3e-3, 5.3e-3, 4e-3}, thickness[] = {60e-6, 60e-6, 68e-6, 68e-6};
+  ZpResult *near = NULL;
+  double starts = 0;
+  for (size_t k = 0; k < LENGTH_OF(load); k++) {
+    ZpActuatorDef def = DEF({"load.mass", load[k]}, {"ribbon.thickness", thickness[k]}, {"mesh.nodes", 61},
+                            {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
+    ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+    starts += zp_result_get(warm, "warm_starts");
+    for (size_t i = 0; i < LENGTH_OF(names); i++)
+      same(warm, cold, names[i], 1e-9);
+    near = warm;
+  }
+  printf("%g of 9 limits from the neighbour\n", starts);
+  ck_assert_double_ge(starts, 8);
+}
+
+/* The limit point that is the neighbour's release is here beyond the gap at which the actuator counts as closed. */
+TEST(opens_before_the_limit_point_of_its_neighbour) {
+  ZpActuatorDef def = DEF({"ribbon.thickness", 130e-6}, {"load.mass", 0.0183721}, {"mesh.nodes", 31},
+                          {"liquid.model", ZP_LIQUID_BEAD}, {"output.errors", false});
+  ZpResult *near = limits_of(&def);
+  def.load.mass = 0.0165349;
+  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+  same(warm, cold, "release_voltage_V", 1e-9);
+}
+
 /* At low voltages it closes gradually, at high ones by a jump. */
 TEST(largest_load_from_gradual_neighbours) {
   enum { STEPS = 9 };

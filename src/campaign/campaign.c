@@ -167,12 +167,12 @@ static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResu
 
 /* => the result, NULL if the campaign ends: stopped, or the machine failed. A case that ends after the stop is dropped,
  * because its estimated errors may be missing. */
-static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
+static ZpResult *run_case(Worker *worker, size_t number, const ZpResult *neighbour) {
   ZpCampaign *c = worker->campaign;
   const ZpHooks hooks = {worker, on_progress, c->options.clock ? read_clock : NULL};
   ZpResult *result = NULL;
   ZpError err;
-  ZpStatus status = zp_case_run_or_say(c->scenario, number, before, &hooks, &result, &err);
+  ZpStatus status = zp_case_run_or_say(c->scenario, number, neighbour, &hooks, &result, &err);
   atomic_store(&worker->fraction, 0);
   if (status != ZP_OK) {
     fail(c, &err);
@@ -205,18 +205,35 @@ static void drop_series(ZpResult *result) {
   result->series = NULL;
 }
 
-/* A result is sent to the writer when the next one, which starts from it, is finished. */
+/* The results of cases from .. to - 1 from which others may start yet. */
+typedef struct Kept {
+  size_t from;
+  ZpResult *result[SPAN_MOST];
+} Kept;
+
+static const ZpResult *neighbour_of(const ZpScenario *scenario, const Kept *kept, size_t number) {
+  const size_t neighbour = zp_case_neighbour(scenario, number);
+  return neighbour < number ? kept->result[neighbour - kept->from] : NULL;
+}
+
+/* A result is sent to the writer when the last one that starts from it is finished. */
 static void run_here(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
   ZpCampaign *c = worker->campaign;
-  ZpResult *before = NULL;
-  for (size_t i = from; i < to; i++) {
-    ZpResult *result = run_case(worker, i, before);
-    if (before) hand_over_result(c, i - 1, hash[i - 1 - from], before);
-    before = result;
-    if (!result) return;
-    if (!c->keeps_series) drop_series(result);
+  Kept kept = {.from = from};
+  size_t last[SPAN_MOST];
+  bool runs = true;
+  zp_case_last(c->scenario, from, to, last);
+  for (size_t i = from; i < to && runs; i++) {
+    ZpResult *result = kept.result[i - from] = run_case(worker, i, neighbour_of(c->scenario, &kept, i));
+    runs = result != NULL;
+    if (runs && !c->keeps_series) drop_series(result);
+    for (size_t k = from; k <= i; k++) {
+      ZpResult **done = &kept.result[k - from];
+      if (!*done || (runs && last[k - from] > i)) continue;
+      hand_over_result(c, k, hash[k - from], *done);
+      *done = NULL;
+    }
   }
-  hand_over_result(c, to - 1, hash[to - 1 - from], before);
 }
 
 /* Send the results of cases that another process has computed to the writer. False if it is lost. */
@@ -483,19 +500,18 @@ static bool put_result(FILE *out, const ZpResult *result) {
 /* Run the cases one after the other and append their results. */
 static ZpStatus compute_all(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks, FILE *out,
                             ZpError *err) {
-  ZpResult *before = NULL;
+  Kept kept = {.from = from};
   ZpStatus status = ZP_OK;
   const bool keeps_series = zp_scenario_keeps_series(scenario);
   for (size_t i = from; i < to && status == ZP_OK; i++) {
-    ZpResult *result = NULL;
-    status = zp_case_run_or_say(scenario, i, before, hooks, &result, err);
-    zp_result_destroy(before);
-    before = result;
+    ZpResult **result = &kept.result[i - from];
+    status = zp_case_run_or_say(scenario, i, neighbour_of(scenario, &kept, i), hooks, result, err);
     if (status != ZP_OK) break;
-    if (!keeps_series) drop_series(result);
-    if (!put_result(out, result)) status = zp_fail_memory(err);
+    if (!keeps_series) drop_series(*result);
+    if (!put_result(out, *result)) status = zp_fail_memory(err);
   }
-  zp_result_destroy(before);
+  for (size_t i = from; i < to; i++)
+    zp_result_destroy(kept.result[i - from]);
   return status;
 }
 

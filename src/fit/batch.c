@@ -62,34 +62,77 @@ static size_t at_most(size_t length, size_t most) {
   return length < most ? length : most;
 }
 
-/* The first case of a chunk starts from scratch and takes as long as some 14 others. A small sweep has 8 chunks, so
- * that as many processors have work; a large one has longer chunks, of at least 32 cases. */
+/* Cases that follow each other with only the fastest list varying. */
+static size_t row_of(const ZpScenario *scenario) {
+  size_t axes, row = 1;
+  const int *axis = zp_scenario_axes(scenario, &axes);
+  const ZpDesign *design = zp_scenario_design(scenario);
+  if (design) return zp_design_samples(design);
+  if (axes > 0) zp_scenario_axis(scenario, axis[axes - 1], &row);
+  return row;
+}
+
+/* Chunks of about `cases` cases that consist of whole rows, or of equal parts of one. */
+static size_t in_rows(const ZpScenario *scenario, size_t cases) {
+  const size_t row = row_of(scenario), shortest = (row + ZP_CHUNK_MOST - 1) / ZP_CHUNK_MOST;
+  const size_t parts = row / cases > shortest ? row / cases : shortest;
+  if (parts > 1) return (row + parts - 1) / parts;
+  return at_most((cases + row - 1) / row, ZP_CHUNK_MOST / row) * row;
+}
+
+/* The first case of a chunk starts from scratch and takes as long as some 6 others. A small sweep has about 8 chunks,
+ * so that as many processors have work; a large one has longer chunks, of about 32 cases or more. */
 size_t zp_case_chunk(const ZpScenario *scenario) {
   enum { CHUNKS_OF_FEW = 8, LONGEST_OF_FEW = 16, CHUNKS_OF_MANY = 32 };
   const size_t cases = zp_scenario_count(scenario);
   if (!zp_study_follows(zp_scenario_study(scenario)) || cases < CHUNKS_OF_FEW) return 1;
   const size_t of_few = at_most(cases / CHUNKS_OF_FEW, LONGEST_OF_FEW);
   const size_t of_many = at_most(cases / CHUNKS_OF_MANY, ZP_CHUNK_MOST);
-  return of_few > of_many ? of_few : of_many;
+  return in_rows(scenario, of_few > of_many ? of_few : of_many);
 }
 
-static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResult *before, const ZpHooks *hooks,
-                    ZpResult **result, ZpError *err) {
+/* Cases from one to the next along list `axis`, the fastest of those in which case `index` is not the first, or 1 along
+ * samples. 0: it is the first in all of them. */
+static size_t apart_of(const ZpScenario *scenario, size_t index) {
+  size_t axes, length;
+  const int *axis = zp_scenario_axes(scenario, &axes);
+  const ZpDesign *design = zp_scenario_design(scenario);
+  size_t apart = design ? zp_design_samples(design) : 1;
+  if (index % apart > 0) return 1;
+  while (axes-- > 0) {
+    zp_scenario_axis(scenario, axis[axes], &length);
+    const size_t cases = apart * length; /* of the list once */
+    if (index % cases >= apart) return apart;
+    apart = cases;
+  }
+  return 0;
+}
+
+size_t zp_case_neighbour(const ZpScenario *scenario, size_t index) {
+  const size_t apart = apart_of(scenario, index), in_chunk = index % zp_case_chunk(scenario);
+  return apart <= in_chunk ? index - apart : index;
+}
+
+void zp_case_last(const ZpScenario *scenario, size_t from, size_t to, size_t *last) {
+  for (size_t i = from; i < to; i++)
+    last[i - from] = last[zp_case_neighbour(scenario, i) - from] = i;
+}
+
+static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, const ZpResult *neighbour,
+                    const ZpHooks *hooks, ZpResult **result, ZpError *err) {
   ZpStudy study = zp_scenario_study(scenario);
-  const ZpStudyInput input = {.neighbour = before};
-  if (before && before->limits)
+  const ZpStudyInput input = {.neighbour = neighbour};
+  if (neighbour && neighbour->limits)
     return zp_base_note(zp_study_run_limited(study, def, &input, hooks, result, err), def, result, err);
   return zp_data_study_run(study, def, hooks, result, err);
 }
 
-ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, const ZpResult *neighbour, const ZpHooks *hooks,
                      ZpResult **result, ZpError *err) {
   ZpActuatorDef def = {0};
-  const bool fresh = index % zp_case_chunk(scenario) == 0;
   ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* the study checks it */
-  if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
+  if (status == ZP_OK) status = run(scenario, &def, neighbour, hooks, result, err);
   zp_def_clear(&def);
-  zp_result_forget_states(before);
   if (status == ZP_OK && zp_scenario_count(scenario) > 1) keep_the_series(*result);
   return status;
 }
@@ -102,22 +145,34 @@ ZpResult *zp_case_impossible(ZpStudy study, const ZpError *why) {
   return result;
 }
 
-ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, const ZpResult *neighbour, const ZpHooks *hooks,
                             ZpResult **result, ZpError *err) {
   ZpError why;
-  ZpStatus status = zp_case_run(scenario, index, before, hooks, result, &why);
+  ZpStatus status = zp_case_run(scenario, index, neighbour, hooks, result, &why);
   if (status == ZP_OK) return ZP_OK;
   if (status != ZP_BAD_INPUT) return zp_fail(err, status, "%s", why.message);
   *result = zp_case_impossible(zp_scenario_study(scenario), &why);
   return *result ? ZP_OK : zp_fail_memory(err);
 }
 
+/* The states from which no case starts after this one are freed. */
+static void forget_states(const ZpBatch *batch, size_t index) {
+  const size_t chunk = zp_case_chunk(batch->scenario), from = index / chunk * chunk;
+  size_t last[ZP_CHUNK_MOST];
+  zp_case_last(batch->scenario, from, at_most(from + chunk, batch->count), last);
+  for (size_t i = from; i <= index; i++)
+    if (last[i - from] <= index) zp_result_forget_states(batch->result[i]);
+}
+
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
-  ZpResult *result, *before = batch->done > 0 ? batch->result[batch->done - 1] : NULL;
+  const size_t index = batch->done, from = zp_case_neighbour(batch->scenario, index);
+  ZpResult *result;
   ZpStatus status = need_room(batch, err);
-  if (status == ZP_OK) status = zp_case_run(batch->scenario, batch->done, before, hooks, &result, err);
+  if (status == ZP_OK)
+    status = zp_case_run(batch->scenario, index, from < index ? batch->result[from] : NULL, hooks, &result, err);
   if (status != ZP_OK) return status;
   batch->result[batch->done++] = result;
+  forget_states(batch, index);
   batch->numbers += zp_result_numbers(result);
   batch->interrupted = result->outcome == ZP_INTERRUPTED;
   return ZP_OK;

@@ -7,17 +7,25 @@
 /* Largest number of cases in a chunk. */
 enum { ZP_CHUNK_MOST = 64 };
 
-/* Number of cases in a chunk. In a study that follows (zp_study_follows) a case starts from the one before it, except
- * the first of a chunk. The number depends on the scenario alone, so results do not depend on the number of workers. */
+/* Number of cases in a chunk. In a study that follows (zp_study_follows) cases start from others of their chunk. The
+ * number depends on the scenario alone, so results do not depend on the number of workers. */
 size_t zp_case_chunk(const ZpScenario *scenario);
 
-/* Run case `index`. `before` is the result of the preceding case, NULL for the first of a chunk; its states that only
- * this case needs are freed. In a sweep the result has a series, but no shapes and no checkpoint. */
-ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+/* The case from which case `index` starts: the one before it along the list that varies fastest of those in which it is
+ * not the first. Itself if it starts from scratch, as does a case whose neighbour would be in another chunk. */
+size_t zp_case_neighbour(const ZpScenario *scenario, size_t index);
+
+/* The last cases that start from cases from .. to - 1 => last [to - from]; a case from which none starts itself. `from`
+ * is the first of a chunk. */
+void zp_case_last(const ZpScenario *scenario, size_t from, size_t to, size_t *last);
+
+/* Run case `index` from the result of its neighbour (NULL: from scratch). In a sweep the result has a series, but no
+ * shapes and no checkpoint. */
+ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, const ZpResult *neighbour, const ZpHooks *hooks,
                      ZpResult **result, ZpError *err);
 
 /* zp_case_run, except that a case with impossible input has a result that gives the reason. */
-ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, const ZpResult *neighbour, const ZpHooks *hooks,
                             ZpResult **result, ZpError *err);
 
 /* A result of `study` whose message says why it has no numbers. NULL if there is no memory. */

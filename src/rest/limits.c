@@ -14,8 +14,9 @@ typedef struct Finder {
   const ZpModel *model;
   const ZpLimits *near; /* of a neighbour; NULL: none */
   ZpLimits *limits;
-  double top;         /* drive.voltage, V */
-  double least, most; /* loads; it closes under the former, but not under the latter; 0, INFINITY: not known, kg */
+  double top;              /* drive.voltage, V */
+  double least, most;      /* loads; it closes under the former, but not under the latter; 0, INFINITY: not known, kg */
+  ZpQuasistaticEnd raised; /* how the last rise of the voltage under such a load ended */
   double at_least, at_most; /* voltages that close it under these, V; NAN: not known */
 } Finder;
 
@@ -80,7 +81,8 @@ static ZpQuasistaticEnd raise(Finder *f, double load) {
 
 /* Does the voltage close the actuator under this load? */
 static bool closes_under(Finder *f, double load) {
-  bool closes = raise(f, load) == ZP_QUASISTATIC_CHANGED && !(f->limits->at.value > (1 + same) * f->top);
+  f->raised = raise(f, load);
+  bool closes = f->raised == ZP_QUASISTATIC_CHANGED && !(f->limits->at.value > (1 + same) * f->top);
   narrow(f, load, closes, f->limits->at.value);
   return closes;
 }
@@ -204,7 +206,7 @@ static bool find_below_most(Finder *f, double load, ZpLimit *limit) {
 }
 
 /* Does it close under any of these larger loads? Then `least` is that one. Where the voltage does not even meet a limit
- * point, it meets none under larger loads. */
+ * point, but for lower crests of the ripple of one that is above it, it meets none under larger loads. */
 static bool closes_above(Finder *f, double load, bool *first) {
   static const double more[] = {1e-3, 1e-2, 3e-2, 0.1, 0.3};
   bool closes = false, none = false;
@@ -212,8 +214,9 @@ static bool closes_above(Finder *f, double load, bool *first) {
     bool hangs = hang_under(f, load * (1 + more[k]));
     none = hangs && (zp_quasistatic_first(f->rest, far * f->top, &f->limits->at) == ZP_TRACK_ARRIVED ||
                      f->limits->at.value > f->top);
-    *first = none && k == 0;
     closes = !none && closes_under(f, load * (1 + more[k]));
+    none = none || (!closes && f->raised == ZP_QUASISTATIC_BEYOND && f->rest->falls == 0);
+    *first = none && k == 0;
   }
   f->most = INFINITY;
   return closes;
@@ -245,46 +248,96 @@ static void take(Finder *f, const double *state) {
   zp_statics_stable(s);
 }
 
+/* The neighbour's limit, under its load at drive.voltage if it is the largest load. */
+static void take_limit(Finder *f, const ZpLimit *near, bool load) {
+  ZpStatics *s = &f->rest->statics;
+  take(f, near->state);
+  if (load) s->load = near->value;
+  if (load) s->U = f->top;
+  memcpy(f->rest->track.fold.null, near->null, s->n * sizeof *near->null);
+}
+
+/* Is the mesh too fine to hold a front between nodes, where the actuator could stop although the neighbour does not? */
+static bool is_fine(const Finder *f, double voltage) {
+  static const double fine = 3; /* elements */
+  return zp_mesh_resolution(f->model, voltage) > fine;
+}
+
+/* Is the present point the limit? It is not far from the neighbour's. A limit point is met before the gap at which the
+ * actuator counts as closed. */
+static bool is_limit(Finder *f, const ZpLimit *near, ZpLimitKind kind) {
+  static const double farthest = 0.5;
+  ZpStatics *s = &f->rest->statics;
+  const bool load = kind == ZP_LIMIT_LOAD, closed = zp_closing_gap(s, NULL) <= f->rest->track.limit;
+  const double value = load ? s->load : s->U;
+  const bool before = near->end == ZP_TRACK_EVENT || closed == (kind == ZP_LIMIT_RELEASE);
+  const bool within = load ? value > 0 : value <= f->top;
+  return before && within && fabs(value / near->value - 1) <= farthest;
+}
+
+/* Is the limit point at the present point the highest crest of its ripple? The largest load must be; a voltage goes on
+ * to that crest. */
+static bool goes_to_crest(Finder *f, const ZpLimit *near, ZpLimitKind kind) {
+  ZpLimit *limit = &f->limits->limit[kind];
+  f->rest->track.fold.system = &f->rest->square; /* crests under this load */
+  if (limit->room > 0) return true;
+  if (kind == ZP_LIMIT_LOAD) return zp_quasistatic_look_around(f->rest, limit, 1) == ZP_NOTHING_HIGHER;
+  const double target = kind == ZP_LIMIT_RELEASE ? 0 : f->top;
+  return zp_quasistatic_climb(f->rest, target, limit) && is_limit(f, near, kind);
+}
+
 /* Solve for a limit, starting from the neighbour's. True if this is the limit: it is stable except along its null
- * vector, it is closed if the neighbour's is, and it is not far away. */
+ * vector, and no crest of its ripple is higher. */
 static bool from_neighbour(Finder *f, ZpLimitKind kind) {
-  static const double farthest = 0.3;
   const ZpLimit *near = f->near ? &f->near->limit[kind] : NULL;
   if (!near || (near->end != ZP_TRACK_FOLD && near->end != ZP_TRACK_EVENT)) return false;
   ZpRest *rest = f->rest;
-  ZpStatics *s = &rest->statics;
   ZpFold *solver = &rest->track.fold;
-  bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_TRACK_FOLD;
+  if (!is_fine(f, kind == ZP_LIMIT_LOAD ? f->top : near->value)) return false;
+  const bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_TRACK_FOLD;
   solver->system = load ? &rest->load : &rest->square;
-  take(f, near->state);
-  double near_gap = zp_closing_gap(s, NULL), closed = rest->track.limit;
-  if (load) s->load = near->value;
-  if (load) s->U = f->top;
-  memcpy(solver->null, near->null, s->n * sizeof *near->null);
-  bool found = fold   ? zp_fold_solve(solver)
+  take_limit(f, near, load);
+  const double near_gap = zp_closing_gap(&rest->statics, NULL);
+  bool found = fold   ? zp_fold_approach(solver)
                : load ? go_to_event(f, near_gap)
-                      : zp_fold_event(solver, zp_closing_gap, closed, ZP_FOLD_EXACT);
-  if (!found) return false;
-  double value = load ? s->load : s->U;
-  bool sided = !fold || (near_gap <= 2 * closed) == (zp_closing_gap(s, NULL) <= 2 * closed);
-  bool within = load ? value > 0 : value <= f->top;
-  if (solver->negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
+                      : zp_fold_event(solver, zp_closing_gap, rest->track.limit, ZP_FOLD_EXACT);
+  if (!found || solver->negative > 0 || !is_limit(f, near, kind)) return false;
   ZpLimit *limit = &f->limits->limit[kind];
   zp_quasistatic_note(rest, limit, near->end);
   limit->room = zp_quasistatic_room_left(rest, near, near_gap);
-  solver->system = &rest->square; /* crests under this load */
-  double sign = kind == ZP_LIMIT_RELEASE ? -1 : 1;
-  bool highest = !fold || limit->room > 0 || zp_quasistatic_look_around(rest, limit, sign) == ZP_NOTHING_HIGHER;
+  bool highest = !fold || goes_to_crest(f, near, kind);
   f->limits->warm += highest;
   return highest;
 }
 
-/* Closing is by the fold of the pull-in, in the neighbour and here. */
+/* Is the pull-in at a shape like the neighbour's, by the part of the gap that is left? */
+static bool pulls_in_alike(Finder *f) {
+  static const double farthest = 0.1;
+  const double left = zp_closing_gap(&f->rest->statics, NULL) / f->limits->hanging;
+  take(f, f->near->limit[ZP_LIMIT_PULL_IN].state);
+  const double near_left = zp_closing_gap(&f->rest->statics, NULL) * f->near->L / (f->near->hanging * f->model->L);
+  return fabs(left - near_left) <= farthest;
+}
+
+/* The first limit point on the own way, where the neighbour's is. */
+static bool pulls_in(Finder *f) {
+  ZpLimit *limit = &f->limits->limit[ZP_LIMIT_PULL_IN];
+  zp_rest_go_to(f->rest, f->limits->start);
+  bool found = zp_quasistatic_first(f->rest, f->top, limit) == ZP_TRACK_FOLD &&
+               zp_quasistatic_climb(f->rest, f->top, limit) && pulls_in_alike(f);
+  f->limits->warm += found;
+  return found;
+}
+
+/* Closing is by the limit point of the pull-in, in the neighbour and here: it falls closed from there as the neighbour
+ * does. */
 static bool closes_as_neighbour(Finder *f) {
   const ZpLimit *near = f->near ? f->near->limit : NULL;
+  ZpLimit *limit = f->limits->limit;
   if (!near || near[ZP_LIMIT_CLOSING].value != near[ZP_LIMIT_PULL_IN].value) return false;
-  if (!from_neighbour(f, ZP_LIMIT_PULL_IN)) return false;
-  zp_quasistatic_copy(f->rest, &f->limits->limit[ZP_LIMIT_PULL_IN], &f->limits->limit[ZP_LIMIT_CLOSING]);
+  if (!is_fine(f, near[ZP_LIMIT_PULL_IN].value)) return false;
+  if (!from_neighbour(f, ZP_LIMIT_PULL_IN) && !pulls_in(f)) return false;
+  zp_quasistatic_copy(f->rest, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
   return true;
 }
 
@@ -318,11 +371,14 @@ static void lower_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
   const ZpTopology *t = &f->model->topology;
   bool closes = find_closed(f), slides = zp_is_open_pair(t);
-  if (!slides && from_neighbour(f, ZP_LIMIT_RELEASE)) return;
+  f->limits->opens_first = f->near && f->near->opens_first && !slides && from_neighbour(f, ZP_LIMIT_RELEASE);
+  if (f->limits->opens_first) return;
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
   if (!closes) return;
   zp_rest_go_to(f->rest, f->limits->closed);
+  const int before = f->rest->falls;
   zp_quasistatic_lower(f->rest, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
+  f->limits->opens_first = f->rest->falls == before + 1;
 }
 
 /* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
@@ -351,11 +407,9 @@ static bool falls_as_neighbour(Finder *f) {
   return closed;
 }
 
-/* From a neighbour: only if the voltage meets no other limit point before, and the mesh is too fine to hold a front
- * between nodes, to which the actuator might fall. */
+/* From a neighbour: only if the voltage meets no other limit point before. */
 static bool lift_as_neighbour(Finder *f) {
-  static const double fine = 3; /* elements */
-  bool trusted = f->near && f->near->first && zp_mesh_resolution(f->model, f->top) > fine;
+  bool trusted = f->near && f->near->first;
   bool found = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
   f->limits->first = found && falls_as_neighbour(f);
   if (found && !f->limits->first) f->limits->warm--;

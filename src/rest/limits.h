@@ -25,9 +25,10 @@ typedef struct ZpLimits {
   bool arrives;
   double *closed; /* closed state at drive.voltage */
   bool closes;
-  double *hung;   /* state that hangs without voltage under the largest load */
-  double *lifted; /* closed state to which it falls there, if it does */
-  bool first;     /* the limit of the largest load is the first that the voltage meets under it */
+  bool opens_first; /* its release is at the first limit point that a falling voltage meets */
+  double *hung;     /* state that hangs without voltage under the largest load */
+  double *lifted;   /* closed state to which it falls there, if it does */
+  bool first;       /* the limit of the largest load is the first that the voltage meets under it */
   ZpLimit limit[ZP_LIMIT_KINDS];
   ZpLimit at; /* work space: where a rising voltage closes it under some load */
   int warm;   /* how many limits were found from the neighbour's */

@@ -63,6 +63,7 @@ void zp_quasistatic_start(ZpRest *r) {
   ZpStatics *s = &r->statics;
   for (size_t k = 0; k < s->members; k++)
     s->member[k].closed = zp_closed_opening(s->member[k].model, gap_of(&s->member[k]));
+  r->falls = 0;
   r->track.limit = s->member->closed;
   r->track.fold.tolerance = zp_statics_tolerance(s);
 }
@@ -102,6 +103,11 @@ static void lose(ZpLimit *limit, const char *reason) {
 
 static bool along_load(ZpRest *r) {
   return r->track.fold.system == &r->load;
+}
+
+static void choose(ZpRest *r, const ZpBranchSystem *along) {
+  r->track.fold.system = along;
+  r->track.event = zp_closing_gap;
 }
 
 /* The voltage or the load at the present point. */
@@ -165,6 +171,7 @@ enum { FROM_LIMIT, FROM_LOST, SHARES = sizeof beyond / sizeof beyond[0] };
 static bool fall(ZpRest *r, double sign, size_t first) {
   double m = parameter(r);
   bool found = false;
+  r->falls++;
   zp_rest_save(r, r->held);
   for (size_t k = first; k < SHARES && !found; k++) {
     if (k > first) zp_rest_go_to(r, r->held);
@@ -369,6 +376,18 @@ static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   return around;
 }
 
+bool zp_quasistatic_climb(ZpRest *r, double target, ZpLimit *limit) {
+  enum { MOST = 20 };
+  const double m = zp_branch_parameter_at(&r->square, target), sign = m > parameter(r) ? 1 : -1;
+  choose(r, &r->square);
+  for (int k = 0; k < MOST; k++) {
+    ZpAround around = climb(r, limit, sign);
+    if (around != ZP_STABLE_HIGHER) return around == ZP_NOTHING_HIGHER;
+    if (zp_track(&r->track, m) != ZP_TRACK_FOLD) return false;
+  }
+  return false;
+}
+
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Is the present point a closed state that cannot be? Beyond it nothing tells when the actuator opens. */
@@ -410,11 +429,6 @@ static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit 
     if (has_become_impossible(r)) return ZP_QUASISTATIC_IMPOSSIBLE;
   }
   return ZP_QUASISTATIC_LOST;
-}
-
-static void choose(ZpRest *r, const ZpBranchSystem *along) {
-  r->track.fold.system = along;
-  r->track.event = zp_closing_gap;
 }
 
 bool zp_quasistatic_fold_of_load(ZpRest *r, const double *null) {

@@ -60,6 +60,11 @@ void zp_quasistatic_copy(const ZpRest *rest, const ZpLimit *from, ZpLimit *to);
 typedef enum ZpAround { ZP_NOTHING_HIGHER, ZP_STABLE_HIGHER, ZP_CREST_HIGHER, ZP_OUT_OF_SIGHT } ZpAround;
 ZpAround zp_quasistatic_look_around(ZpRest *rest, ZpLimit *limit, double sign);
 
+/* From the limit point at the present point to the highest crest of its ripple, also over stable states between crests,
+ * while the voltage changes to `target`, V => limit. False if another limit is there, or part of the ripple is out of
+ * sight. */
+bool zp_quasistatic_climb(ZpRest *rest, double target, ZpLimit *limit);
+
 /* The room that the limit at the present point keeps of that of `near`, a limit of a neighbour with this `gap`. */
 double zp_quasistatic_room_left(ZpRest *rest, const ZpLimit *near, double gap);
 

@@ -16,6 +16,7 @@ struct ZpRest {
   ZpTrack track;                       /* to the next limit along the square or the load */
   void *held;                          /* a state to return to during a slow change (rest/quasistatic.h) */
   bool was_closed;                     /* when that began */
+  int falls;                           /* since it last hung without voltage */
   ZpShapeRoom *shape_room;             /* [members] for their shapes */
   ZpManyShapes shapes;                 /* of several */
   void *memory;

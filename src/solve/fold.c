@@ -17,16 +17,20 @@ void zp_fold_reserve(ZpFold *f, const ZpBranchSystem *system, const ZpArrowForm 
   f->system = system;
   f->newton = newton;
   zp_arrow_reserve(&f->beside, form, arena);
-  double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n};
+  double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n, &f->excess};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_arena_take(arena, n);
   f->saved = zp_arena_take(arena, saved);
+  f->start = zp_arena_take(arena, saved);
+  f->null_at_start = zp_arena_take(arena, n);
 }
 
 bool zp_fold_tangent(ZpFold *f) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   ZpArrow *K = &f->newton->K;
   if (rest->residual(rest->self, f->newton->r, &f->left) != ZP_END_FOUND) return false;
+  for (size_t i = 0; f->share > 0 && i < rest->n; i++)
+    f->newton->r[i] -= f->share * f->excess[i];
   rest->stiffness(rest->self, K, NULL);
   f->system->sensitivity(rest->self, f->along);
   if (!zp_arrow_factor(K)) return false;
@@ -217,6 +221,30 @@ static bool solve(ZpFold *f, Goal goal) {
 
 bool zp_fold_solve(ZpFold *f) {
   return solve(f, (Goal){.kind = TO_FOLD, .to = ZP_FOLD_EXACT});
+}
+
+bool zp_fold_approach(ZpFold *f) {
+  static const double shortest = 1.0 / 16;
+  const ZpBranchSystem *sys = f->system;
+  void *self = sys->at_rest.self;
+  const size_t bytes = sys->at_rest.n * sizeof *f->null;
+  bool found = sys->at_rest.residual(self, f->excess, NULL) == ZP_END_FOUND;
+  double before = 1, step = 1;
+  while (found && before > 0 && step >= shortest) {
+    sys->save(self, f->start);
+    memcpy(f->null_at_start, f->null, bytes);
+    f->share = before - step;
+    if (solve(f, (Goal){.kind = TO_FOLD, .to = f->share > 0 ? ZP_FOLD_ROUGH : ZP_FOLD_EXACT}) && f->negative == 0) {
+      before = f->share;
+      step = fmin(2 * step, before);
+      continue;
+    }
+    sys->restore(self, f->start);
+    memcpy(f->null, f->null_at_start, bytes);
+    step *= 0.5;
+  }
+  f->share = 0;
+  return found && before == 0;
 }
 
 bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {

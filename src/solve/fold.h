@@ -22,9 +22,12 @@ typedef struct ZpFold {
   double *by_a, *by_n;    /* [n] */
   double test;            /* 0 at a limit point: the stiffness along the null vector */
   size_t negative;        /* eigenvalues below 0 of the stiffness; at a limit point without that of the null vector */
+  double *excess;         /* [n] forces that are missing to balance at the start of a solution from far away, */
+  double share;           /* and the share of them that is still added: 0, or more on the way */
   double left;            /* size of the forces at the start of the last step */
   double change, moved;   /* by the last step: of m, relative; of q, in units of the required accuracy */
-  void *saved;
+  void *saved, *start;    /* points to return to */
+  double *null_at_start;  /* [n] */
 } ZpFold;
 
 /* Two limit points closer than this, relative, are a ripple of the mesh: the front passing a node of an unstable
@@ -47,6 +50,10 @@ void zp_fold_guess(ZpFold *fold);
 /* From the present point, which is close, to the limit point; `null` must be close to its null vector. False if there
  * is none nearby; the present point is then undefined. */
 bool zp_fold_solve(ZpFold *fold);
+
+/* zp_fold_solve from a point that is no equilibrium and may be far away, as the limit point of a neighbour. What it
+ * lacks to balance acts as a dead force, and is taken away in parts. */
+bool zp_fold_approach(ZpFold *fold);
 
 /* Solve for the equilibrium where `event` has this value. The way there may pass limit points. */
 bool zp_fold_event(ZpFold *fold, ZpEvent event, double value, ZpFoldTo to);
