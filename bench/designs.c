@@ -593,7 +593,7 @@ typedef struct Estimated {
   double *factor;
 } Estimated;
 
-#define ZP_ESTIMATE(study, scalar, error, unit, safety, law, order, meshes) {study, scalar, error, 0, 0, 0, NULL},
+#define ZP_ESTIMATE(study, scalar, error, unit, safety, law) {study, scalar, error, 0, 0, 0, NULL},
 static Estimated estimated[] = {
 #include <zipact/studies.def>
 };

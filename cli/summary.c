@@ -37,7 +37,7 @@ static double error_of(const ZpResult *result, const char *scalar) {
   static const struct {
     const char *scalar, *error;
   } estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes) {scalar, error},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law) {scalar, error},
 #include <zipact/studies.def>
   };
   for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++)

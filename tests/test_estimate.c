@@ -13,46 +13,41 @@ static bool has(const ZpResult *result, const char *name) {
 }
 
 /* A cantilever that bends little under its own weight sags by q L^4 / (8 EI) (1 + 1 / (3 n^3)) with n elements, by what
- * weight the clamped one hands on. Elements 5 / 2 times as long add (5 / 2)^3 - 1 times that second term, of which
- * order two takes 1 / ((5 / 2)^2 - 1): 39 / 14 of it, more than elements 5 / 3 times as long make of it, or both
- * together. */
+ * weight the clamped one hands on. The estimate comes from two thirds of the elements, by order two. */
 TESTS(cantilever_in_closed_form, 0, 3) {
-  static const int nodes[] = {21, 41, 61};
-  int n = nodes[_i] - 1;
+  static const int nodes[] = {22, 43, 61};
+  const double n = nodes[_i] - 1, fewer = 2 * n / 3, cube = pow(n, 3), cubed = pow(fewer, 3);
   ZpActuatorDef def = DEF({"output.errors", 1}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
                           {"gravity", 1e-3}, {"load.mass", 0}, {"ribbon.length", 50e-3}, {"mesh.nodes", nodes[_i]});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
-  double cube = pow(n, 3), exact = zp_result_get(result, "stroke_m") / (1 + 1 / (3 * cube));
-  ck_near(zp_result_get(result, "stroke_error_m"), 1.75 * 39 / 14 * exact / (3 * cube), 2e-9); /* 2.4e-10 measured */
+  double exact = zp_result_get(result, "stroke_m") / (1 + 1 / (3 * cube));
+  double expected = 2.5 * exact * (1 / cubed - 1 / cube) / 3 / (9.0 / 4 - 1);
+  ck_near(zp_result_get(result, "stroke_error_m"), expected, 2e-9);
   ck_assert(!has(result, "opening_error_m"));
 }
-
-typedef enum Law { POWERS, RIPPLE, EITHER } Law;
 
 typedef struct Number {
   ZpStudy study;
   const char *value, *error;
   double most; /* times the error that the estimate may be */
   double safety;
-  Law law;
-  double order; /* of a ripple */
-  int meshes;   /* coarser ones */
+  bool powers; /* errors of both orders */
 } Number;
 
 static const Number numbers[] = {
-    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 15, 2, EITHER, 2, 2},
-    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 15, 2, EITHER, 2, 2},
-    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 12, 1.55, RIPPLE, 3.5, 4},
-    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 2.5, 1.75, POWERS, 2, 2},
-    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, 2, RIPPLE, 2, 2},
-    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, 1.75, POWERS, 2, 2},
-    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 2.25, POWERS, 2, 2},
-    {ZP_STUDY_LIMITS, "max_load_kg", "max_load_error_kg", 12, 2, RIPPLE, 3, 4},
+    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 3, 2, false},
+    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 3, 2, false},
+    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 5, 2, false},
+    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 5, 2.5, true},
+    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, 2, false},
+    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, 1.75, true},
+    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 2.25, true},
+    {ZP_STUDY_LIMITS, "max_load_kg", "max_load_error_kg", 12, 2, false},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
- * covers the error. Measured: 1.9 times (opening, frequency), 14 times (pull-in, closing), 9 times (release), 8 times
- * (held force), 5 times (zip time), whose errors depend on where among the nodes the front is. */
+ * covers the error. Measured: 1.2 times (pull-in, closing), 2.6 times (release, opening), 8 times (held force), 1.9
+ * times (frequency), 5 times (zip time, largest load), whose errors depend on where among the nodes the front is. */
 TESTS(estimate_covers_the_error, 0, FULL_OR(LENGTH_OF(numbers), 0)) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
@@ -67,28 +62,27 @@ TESTS(estimate_covers_the_error, 0, FULL_OR(LENGTH_OF(numbers), 0)) {
   ck_below(error, number->most * truth);
 }
 
-/* What the meshes give, of n elements: that of the study, then the coarser ones from the finest to the coarsest. */
+/* What the meshes give, of n elements: that of the study, then the coarser ones. */
 typedef struct Meshes {
-  int coarser;
-  double f[5], n[5];
+  double f[3], n[3];
 } Meshes;
 
 static Meshes meshes_of(const Number *number, ZpActuatorDef def) {
-  static const double two[] = {1, 0.6, 0.4}, four[] = {1, 0.8, 0.7, 0.6, 0.4};
+  static const double share[] = {1, 0.6, 0.4};
   double elements = def.mesh.nodes - 1;
-  Meshes meshes = {.coarser = number->meshes};
+  Meshes meshes;
   def.output.errors = false;
-  for (int k = 0; k <= meshes.coarser; k++) {
-    meshes.n[k] = floor((meshes.coarser == 4 ? four : two)[k] * elements + 0.5);
+  for (int k = 0; k < 3; k++) {
+    meshes.n[k] = floor(share[k] * elements + 0.5);
     def.mesh.nodes = (int)meshes.n[k] + 1;
     meshes.f[k] = value_of(number->study, &def, number->value);
   }
   return meshes;
 }
 
-/* (21.1): the error by mesh k for order p. */
-static double by_mesh(const Meshes *t, int k, double p) {
-  return (t->f[k] - t->f[0]) / (pow(t->n[0] / t->n[k], p) - 1);
+/* (21.1): the error by mesh k. */
+static double by_mesh(const Meshes *t, int k) {
+  return (t->f[k] - t->f[0]) / (pow(t->n[0] / t->n[k], 2) - 1);
 }
 
 /* The error if f = c + A / n^2 + B / n^4 through all three. */
@@ -103,61 +97,73 @@ static double by_powers(const Meshes *t) {
   return t->f[0] - c;
 }
 
-/* The order that the meshes show: where the finest and the coarsest of the coarser ones give the same error; NAN if
- * they are on both sides. */
-static double order_of(const Meshes *t) {
-  double p = 0.01;
-  for (int k = 2; k <= t->coarser; k++)
-    if ((t->f[1] - t->f[0]) * (t->f[k] - t->f[0]) <= 0) return NAN;
-  while (p < 20 && fabs(by_mesh(t, t->coarser, p)) >= fabs(by_mesh(t, 1, p)))
-    p += 0.01;
-  return p;
-}
-
-static double largest(const Meshes *t, double p) {
-  double most = 0;
-  for (int k = 1; k <= t->coarser; k++)
-    most = fmax(most, fabs(by_mesh(t, k, p)));
-  return most;
-}
-
 /* (21.3) */
-static double by_ripple(const Meshes *t, double p) {
-  return largest(t, order_of(t) < p ? 2 : p);
+static double largest(const Meshes *t) {
+  return fmax(fabs(by_mesh(t, 1)), fabs(by_mesh(t, 2)));
 }
 
-/* (21.4) with order two for a ripple. */
-static double by_either(const Meshes *t) {
-  double order = order_of(t);
-  if (!(order >= 2 && order < 5)) return 1.25 * largest(t, 2);
-  return fabs(by_mesh(t, 1, order >= 4 ? 3 : 2));
-}
+/* The estimate is what the numbers of the meshes make of it: (21.2) of frequencies, where both powers together give
+ * most and where one mesh does; (21.3) of held forces. */
+static const Number lowest = {ZP_STUDY_MODES, "frequency_1_Hz", "frequency_1_error_Hz", 2.5, 1.75, true};
 
-/* The estimate is what the numbers of the meshes make of it: (21.2) of openings and frequencies, where both powers
- * together give most and where one mesh does; (21.3) of releases, where the mesh of 4/5 gives most, that of 7/10, and
- * where all four meshes are on one side and show an order below and above 3.5; (21.3) of a held force; (21.4) of a
- * pull-in whose meshes show an order below two, of two to four, of four to five, a higher one by chance, and none. */
-TESTS(estimate_is_that_of_the_meshes, 0, 12) {
+TESTS(estimate_is_that_of_the_meshes, 0, 4) {
   static const struct {
     const Number *number;
     double thickness;
     int nodes;
-    double least, most; /* the order that the meshes show is between these; 0, 0: they are on both sides */
-  } cases[] = {{&numbers[3], 150e-6, 31, 0, 2}, {&numbers[5], 30e-6, 21, 2, 4},   {&numbers[2], 100e-6, 41, 0, 0},
-               {&numbers[2], 40e-6, 41, 0, 0},  {&numbers[2], 50e-6, 61, 3, 3.5}, {&numbers[2], 120e-6, 61, 3.5, 5},
-               {&numbers[4], 100e-6, 41, 0, 0}, {&numbers[0], 50e-6, 21, 0, 2},   {&numbers[0], 200e-6, 31, 2, 4},
-               {&numbers[0], 100e-6, 31, 4, 5}, {&numbers[0], 150e-6, 31, 5, 6},  {&numbers[0], 50e-6, 31, 0, 0}};
+    bool both; /* the powers together give most */
+  } cases[] = {{&numbers[5], 30e-6, 21, false},
+               {&lowest, 20e-6, 41, true},
+               {&numbers[4], 100e-6, 41, false},
+               {&numbers[4], 60e-6, 31, false}};
   const Number *number = cases[_i].number;
-  ZpActuatorDef def =
-      DEF({"output.errors", 1}, {"ribbon.thickness", cases[_i].thickness}, {"mesh.nodes", cases[_i].nodes});
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", ZP_LIQUID_NONE},
+                          {"ribbon.thickness", cases[_i].thickness}, {"mesh.nodes", cases[_i].nodes});
   double error = value_of(number->study, &def, number->error);
   Meshes t = meshes_of(number, def);
-  double order = order_of(&t), expected = by_ripple(&t, number->order);
-  if (number->law == POWERS) expected = fmax(largest(&t, 2), fabs(by_powers(&t)));
-  if (number->law == EITHER) expected = by_either(&t);
-  printf("%s: %.9g, %.9g, %.9g, order %.2f, estimated %.3g\n", number->value, t.f[0], t.f[1], t.f[2], order, error);
-  ck_assert(cases[_i].most > 0 ? order > cases[_i].least && order < cases[_i].most : isnan(order));
+  double expected = number->powers ? fmax(largest(&t), fabs(by_powers(&t))) : largest(&t);
+  printf("%s: %.9g, %.9g, %.9g, estimated %.3g\n", number->value, t.f[0], t.f[1], t.f[2], error);
+  ck_assert_int_eq(number->powers && fabs(by_powers(&t)) > largest(&t), cases[_i].both);
   ck_near(error, number->safety * expected, 1e-9); /* 1.8e-10 measured */
+}
+
+/* (21.6): from the number of the study to that on another mesh, from scratch. Two thirds of the elements of what only
+ * hangs; twice the elements of a pull-in whose front is between other nodes there, of a pull-in and a release whose
+ * front is at about the same place, of a gradual closing, and of the largest load. */
+TESTS(estimate_is_that_of_another_mesh, 0, 7) {
+  static const struct {
+    const Number *number;
+    double thickness;
+    int nodes, others;
+    double within;
+  } cases[] = {{&numbers[3], 130e-6, 61, 41, 1e-4},  {&numbers[3], 30e-6, 16, 11, 1e-4},
+               {&numbers[0], 50e-6, 21, 41, 1e-4},   {&numbers[0], 200e-6, 31, 61, 1e-4},
+               {&numbers[2], 100e-6, 61, 121, 8e-3}, {&numbers[1], 400e-6, 31, 61, 1e-4},
+               {&numbers[7], 100e-6, 61, 121, 1e-4}};
+  const Number *number = cases[_i].number;
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", ZP_LIQUID_NONE},
+                          {"ribbon.thickness", cases[_i].thickness}, {"mesh.nodes", cases[_i].nodes});
+  ZpResult *result = study_of(number->study, &def);
+  double value = zp_result_get(result, number->value), told = zp_result_get(result, number->error);
+  def.output.errors = false;
+  def.mesh.nodes = cases[_i].others;
+  double change = value_of(number->study, &def, number->value) - value;
+  double share = fabs(1 - pow((cases[_i].nodes - 1.0) / (cases[_i].others - 1), 2));
+  printf("%s: %.12g, changes by %.6g, told %.6g, expected %.6g\n", number->value, value, change, told,
+         number->safety * fabs(change) / share);
+  ck_near(told, number->safety * fabs(change) / share, cases[_i].within);
+}
+
+/* The angle of a fold has an estimate that covers its error. */
+TEST(angle_has_an_estimate) {
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"actuator.kind", ZP_KIND_HINGE}, {"mesh.nodes", 31});
+  ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
+  double angle = zp_result_get(result, "angle_rad"), told = zp_result_get(result, "angle_error_rad");
+  def.output.errors = false;
+  def.mesh.nodes = 241;
+  double error = fabs(angle - value_of(ZP_STUDY_STATIONARY, &def, "angle_rad"));
+  printf("angle %.9g, error %.3g, estimated %.3g\n", angle, error, told);
+  ck_assert_msg(told >= error && told < 8 * error, "told %g, true %g", told, error); /* 7.1 measured */
 }
 
 /* Zip times come from half and two fifths of the elements, with 4 and 6.25 times the tolerance. The estimate's own runs
@@ -170,7 +176,7 @@ TESTS(zip_time_is_estimated_by_half_and_two_fifths, 0, 3) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", liquids[_i]}, {"mesh.nodes", elements + 1},
                           {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   double told = value_of(ZP_STUDY_ACTUATE, &def, "zip_time_error_s"), tolerance = zp_def_tolerance(&def);
-  Meshes t = {.coarser = 2};
+  Meshes t;
   def.output.errors = false;
   for (int k = 0; k < 3; k++) {
     t.n[k] = share[k] * elements;
@@ -178,7 +184,7 @@ TESTS(zip_time_is_estimated_by_half_and_two_fifths, 0, 3) {
     def.solver.tolerance = tolerance / (share[k] * share[k]);
     t.f[k] = value_of(ZP_STUDY_ACTUATE, &def, "zip_time_s");
   }
-  double expected = 2.25 * fmax(largest(&t, 2), fabs(by_powers(&t)));
+  double expected = 2.25 * fmax(largest(&t), fabs(by_powers(&t)));
   printf("zip time %.6g, %.6g, %.6g s, error estimated as %.3g, expected %.3g\n", t.f[0], t.f[1], t.f[2], told,
          expected);
   ck_near(told, expected, 0.25);
@@ -224,7 +230,8 @@ TEST(unresolved_bending_is_estimated_by_finer_meshes) {
     fine.mesh.nodes = 961;
     fine.output.errors = false;
     double error = fabs(opening - value_of(ZP_STUDY_STATIONARY, &fine, "opening_m"));
-    ck_assert_msg(told >= error && told < 2 * error, "1/%d of the nodes: told %g, true %g", share, told, error);
+    ck_assert_msg(told >= error && told < 6 * error, "1/%d of the nodes: told %g, true %g", share, told, error);
+    printf("1/%d of the nodes: told %g, true %g, %.2f times\n", share, told, error, told / error);
   }
 }
 
@@ -260,7 +267,7 @@ TEST(estimate_may_be_missing) {
   ZpActuatorDef coarse = DEF({"output.errors", 1}, {"mesh.nodes", 6}),
                 chain = DEF({"output.errors", 1}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}),
                 weak = DEF({"output.errors", 1}, {"drive.voltage", 1e3});
-  ck_assert(isnan(value_of(ZP_STUDY_STATIONARY, &coarse, "stroke_error_m")));
+  ck_assert(isnan(value_of(ZP_STUDY_MODES, &coarse, "frequency_1_error_Hz")));
   ck_assert(isnan(value_of(ZP_STUDY_LIMITS, &weak, "pull_in_voltage_error_V")));
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &chain);
   ck_assert(!has(result, "stroke_error_m"));

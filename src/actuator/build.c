@@ -1086,11 +1086,8 @@ static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, Zp
   return status == ZP_OK && model->members > 1 ? check_carried(model, err) : status;
 }
 
-ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
-  *out = NULL;
-  ZpStatus status = zp_def_check(def, err);
-  if (status == ZP_OK) status = check_table(def, table, err);
-  if (status != ZP_OK) return status;
+/* Of a definition that has been checked. */
+static ZpStatus build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   size_t members = (size_t)zp_def_members(def);
   ZpModel *model = zp_calloc(members, sizeof *model);
   if (!model) return zp_fail_memory(err);
@@ -1102,12 +1099,26 @@ ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpM
     model[k].whole = whole;
     model[k].network = network;
   }
-  status = whole && network ? fill_all(def, table, model, err) : zp_fail_memory(err);
+  ZpStatus status = whole && network ? fill_all(def, table, model, err) : zp_fail_memory(err);
   if (status == ZP_OK)
     *out = model;
   else
     zp_model_destroy(model);
   return status;
+}
+
+ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = zp_def_check(def, err);
+  if (status == ZP_OK) status = check_table(def, table, err);
+  return status == ZP_OK ? build(def, table, out, err) : status;
+}
+
+ZpStatus zp_model_build_on_mesh(const ZpModel *model, int nodes, ZpModel **out, ZpError *err) {
+  *out = NULL;
+  ZpActuatorDef def = *model->whole;
+  def.mesh.nodes = nodes;
+  return build(&def, NULL, out, err);
 }
 
 void zp_model_destroy(ZpModel *model) {

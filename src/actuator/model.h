@@ -721,4 +721,7 @@ static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
 /* As zp_model_create_driven, but without laws. */
 ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err);
 
+/* As zp_model_create_on_mesh, but without laws. */
+ZpStatus zp_model_build_on_mesh(const ZpModel *model, int nodes, ZpModel **out, ZpError *err);
+
 #endif

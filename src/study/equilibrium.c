@@ -8,7 +8,6 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "study/equilibria.h"
 #include "study/sensitivity.h"
 
 static const ZpColumn columns[] = {
@@ -116,6 +115,11 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   zp_derive_limits(&f->at.rest, f->limits, order, ORDER, slope, result);
 }
 
+static void estimate(void *user, const ZpOtherMesh *other) {
+  Follower *f = user;
+  zp_estimate_limits(&f->at.rest, f->limits, order, ORDER, other);
+}
+
 static ZpStatus run(Follower *f, ZpError *err) {
   f->limits = zp_limits_create(&f->at.rest);
   if (!f->limits) return zp_fail_memory(err);
@@ -128,7 +132,8 @@ static ZpStatus run(Follower *f, ZpError *err) {
   describe(f);
   note(f);
   if (!f->limits->hangs || f->at.rest.statics.stopped) return ZP_OK;
-  return zp_sensitivity_of(&f->at.rest, derive, f, f->at.result, err);
+  ZpStatus status = zp_sensitivity_of(&f->at.rest, derive, f, f->at.result, err);
+  return status == ZP_OK ? zp_estimate_from_there(&f->at, true, estimate, f, err) : status;
 }
 
 static const ZpRule rule[] = {

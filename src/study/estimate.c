@@ -1,30 +1,26 @@
-/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the requested mesh; 1,
- * 2, 3, 4 coarser ones, or 1 and 2 finer ones if elements of the requested one are longer than the bend. */
+/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the requested mesh; 1
+ * and 2 coarser ones, or finer ones if elements of the requested one are longer than the bend. */
 #include "study/estimate.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "actuator/topology.h"
 #include "base/fail.h"
 
-enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
+enum { MESHES = 3, FEWEST_ELEMENTS = 3 };
 
-/* How errors fall with more elements: as two powers, eq. (21.2); as a ripple, eq. (21.3); as either, eq. (21.4). */
-typedef enum Law { POWERS, RIPPLE, EITHER } Law;
+/* How errors fall with more elements: as two powers, eq. (21.2), or also as a ripple, eq. (21.3). */
+typedef enum Law { POWERS, RIPPLE } Law;
 
 typedef struct Estimated {
   ZpStudy study;
   const char *value, *error, *unit;
   double safety; /* F */
   Law law;
-  double order; /* p of eq. (21.3) */
-  int meshes;   /* coarser ones */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes)                                       \
-  {enumerator, scalar, error, unit, safety, law, order, meshes},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law) {enumerator, scalar, error, unit, safety, law},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
@@ -32,7 +28,6 @@ enum { COUNT = sizeof estimated / sizeof estimated[0] };
 /* Results of the meshes for each row above; NAN where they give none. */
 typedef struct Findings {
   double elements[MESHES], f[COUNT][MESHES];
-  bool free_end; /* a ribbon has one: where it leaves as a point, errors are of order two */
 } Findings;
 
 static bool is_estimated(ZpStudy study) {
@@ -55,16 +50,15 @@ typedef struct Meshes {
   int elements[MESHES];
 } Meshes;
 
-/* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
- * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
- * that four meshes must show also need four fifths and seven tenths. In motion half of the elements, which also take
- * half of the steps, cost less than three fifths. */
-static Meshes coarser_meshes(int elements, int others, bool moves) {
-  static const int at_rest[MESHES] = {10, 6, 4, 8, 7}, in_motion[MESHES] = {10, 5, 4, 8, 7};
-  Meshes meshes = {.others = others};
+/* Three fifths and two fifths of the elements, so near to the requested mesh that the order matters little, and so far
+ * from each other that the front is elsewhere between their nodes. In motion half of the elements, which also take half
+ * of the steps, cost less than three fifths. */
+static Meshes coarser_meshes(int elements, bool moves) {
+  static const int at_rest[MESHES] = {10, 6, 4}, in_motion[MESHES] = {10, 5, 4};
+  Meshes meshes = {.others = MESHES - 1};
   for (int mesh = 0; mesh < MESHES; mesh++)
     meshes.elements[mesh] = ((moves ? in_motion : at_rest)[mesh] * elements + 5) / 10;
-  if (meshes.elements[2] < FEWEST_ELEMENTS) meshes.others = 0;
+  if (meshes.elements[MESHES - 1] < FEWEST_ELEMENTS) meshes.others = 0;
   return meshes;
 }
 
@@ -82,6 +76,7 @@ static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
+  def.output.errors = false;
   def.sensitivity.by[0] = 0;
   if (!moves) return def;
   /* The tolerance is proportional to the square of the lengths of steps, eq. (18.12). */
@@ -113,67 +108,24 @@ static double square(double x) {
   return x * x;
 }
 
-/* Eq. (21.1): f_0 less the converged number, if errors are proportional to the power -order, a multiple of a half, of
- * the number of elements. NAN if the mesh has no such number. */
-static double richardson(const Findings *findings, int k, int mesh, double order) {
+/* Eq. (21.1): f_0 less the converged number, if errors are proportional to n^-2. NAN if the mesh has no such number. */
+static double richardson(const Findings *findings, int k, int mesh) {
   const double *f = findings->f[k], *n = findings->elements;
-  double ratio = n[0] / n[mesh], growth = 1;
-  int whole = (int)order;
-  for (int i = 0; i < whole; i++)
-    growth *= ratio;
-  if (order > whole) growth *= sqrt(ratio);
-  return (f[mesh] - f[0]) / (growth - 1);
+  return (f[mesh] - f[0]) / (square(n[0] / n[mesh]) - 1);
 }
 
-/* The largest value from the coarser meshes 1 to `meshes`; any of them may have none. */
-static double largest(const Findings *findings, int k, int meshes, double order) {
-  double most = NAN;
-  for (int mesh = 1; mesh <= meshes; mesh++)
-    most = fmax(most, fabs(richardson(findings, k, mesh, order)));
-  return most;
-}
-
-static double larger(const Findings *findings, int k, double order) {
-  return largest(findings, k, 2, order);
+/* Eq. (21.3); either of the coarser meshes may have no such number. */
+static double of_ripple(const Findings *findings, int k) {
+  return fmax(fabs(richardson(findings, k, 1)), fabs(richardson(findings, k, 2)));
 }
 
 /* Eq. (21.2): the errors of both orders, two and four, or of the lower one alone. */
 static double of_powers(const Findings *findings, int k) {
-  double near = richardson(findings, k, 1, 2), far = richardson(findings, k, 2, 2);
+  double near = richardson(findings, k, 1), far = richardson(findings, k, 2);
   double to_near = square(findings->elements[0] / findings->elements[1]);
   double to_far = square(findings->elements[0] / findings->elements[2]);
   double both = (near * to_far - far * to_near) / (to_far - to_near);
-  return fmax(larger(findings, k, 2), fabs(both));
-}
-
-static bool on_one_side(const Findings *findings, int k, int meshes) {
-  for (int mesh = 2; mesh <= meshes; mesh++)
-    if (!(richardson(findings, k, 1, 2) * richardson(findings, k, mesh, 2) > 0)) return false;
-  return true;
-}
-
-/* Is the order that the meshes `near` and 2, the coarsest, show this one or a higher one? */
-static bool shows_order(const Findings *findings, int k, int near, double order) {
-  return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, near, order));
-}
-
-/* Eq. (21.3). If meshes on one side show a lower order than the ripple's, the ripple is small compared with the error
- * of order two. */
-static double of_ripple(const Findings *findings, int k) {
-  const Estimated *e = &estimated[k];
-  int nearest = e->meshes > 2 ? 3 : 1;
-  bool small =
-      findings->free_end || (on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order));
-  return largest(findings, k, e->meshes, small ? 2 : e->order);
-}
-
-/* Eq. (21.4). Meshes that follow an order give it. The estimate uses the nearer mesh with a lower order, the one that
- * remains on finer meshes. An order above five is a coincidence: two meshes happen to agree. */
-static double of_either(const Findings *findings, int k, double order) {
-  static const double unordered = 1.25;
-  bool follow = on_one_side(findings, k, 2) && shows_order(findings, k, 1, 2) && !shows_order(findings, k, 1, 5);
-  if (!follow) return unordered * larger(findings, k, order);
-  return fabs(richardson(findings, k, 1, shows_order(findings, k, 1, 4) ? 3 : 2));
+  return fmax(of_ripple(findings, k), fabs(both));
 }
 
 /* Eq. (21.5): the difference from the finer mesh, and the error of that. */
@@ -185,9 +137,7 @@ static double of_finer(const Findings *findings, int k) {
 static double error_of(const Findings *findings, const Meshes *meshes, int k) {
   const Estimated *e = &estimated[k];
   if (meshes->finer) return of_finer(findings, k);
-  if (e->law == POWERS) return e->safety * of_powers(findings, k);
-  if (e->law == RIPPLE) return e->safety * of_ripple(findings, k);
-  return e->safety * of_either(findings, k, e->order);
+  return e->safety * (e->law == POWERS ? of_powers(findings, k) : of_ripple(findings, k));
 }
 
 static void forget_all(Findings *findings) {
@@ -198,57 +148,109 @@ static void forget_all(Findings *findings) {
   }
 }
 
-/* Are the meshes that resolve the bend affordable? A note says how errors are estimated. */
-static bool is_affordable(const ZpActuatorDef *def, Meshes meshes, ZpResult *result) {
-  static const int times = 32, most = 2000; /* elements */
-  if (meshes.elements[1] <= most && meshes.elements[1] <= times * meshes.elements[0]) {
+enum { MOST_ELEMENTS = 2000 };
+
+/* May the meshes that resolve the bend be solved? */
+static bool is_affordable(Meshes meshes) {
+  static const int times = 32;
+  return meshes.elements[1] <= MOST_ELEMENTS && meshes.elements[1] <= times * meshes.elements[0];
+}
+
+/* How errors are estimated. */
+static void note_finer(const ZpActuatorDef *def, Meshes meshes, ZpResult *result) {
+  if (is_affordable(meshes))
     zp_result_note(
         result,
         "mesh.nodes = %d: the estimated errors are the differences from a mesh that resolves the bend of the "
         "ribbon, mesh.nodes = %d",
         def->mesh.nodes, meshes.elements[1] + 1);
-    return true;
-  }
-  zp_result_note(
-      result,
-      "mesh.nodes = %d: errors are not estimated and may exceed the numbers, because elements are much longer "
-      "than the length over which the ribbon bends; use mesh.nodes = %d",
-      def->mesh.nodes, meshes.elements[1] + 1);
-  return false;
-}
-
-/* The number of other meshes that the numbers found need. A number that the study does not find needs none. */
-static int meshes_of(const Findings *findings) {
-  int most = 0;
-  for (int k = 0; k < COUNT; k++)
-    if (!isnan(findings->f[k][0]) && estimated[k].meshes > most) most = estimated[k].meshes;
-  return most;
+  else
+    zp_result_note(
+        result,
+        "mesh.nodes = %d: errors are not estimated and may exceed the numbers, because elements are much longer "
+        "than the length over which the ribbon bends; use mesh.nodes = %d",
+        def->mesh.nodes, meshes.elements[1] + 1);
 }
 
 /* The meshes on which the study is solved again. */
-static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, bool moves, ZpResult *result) {
-  int others = zp_outcome_good(result->outcome) ? meshes_of(findings) : 0, elements = def->mesh.nodes - 1;
-  if (others == 0 || result->resolution >= 1) return coarser_meshes(elements, others, moves);
+static Meshes choose_meshes(const ZpActuatorDef *def, bool moves, ZpResult *result) {
+  int elements = def->mesh.nodes - 1;
+  if (result->resolution >= 1) return coarser_meshes(elements, moves);
   Meshes meshes = finer_meshes(elements, result->resolution);
-  if (!is_affordable(def, meshes, result)) meshes.others = 0;
+  note_finer(def, meshes, result);
+  if (!is_affordable(meshes)) meshes.others = 0;
   return meshes;
 }
+
+/* Is a number of the study without an estimate? One that the study did not find needs none. */
+static bool lacks_estimate(const ZpResult *result, const Findings *findings) {
+  for (int k = 0; k < COUNT; k++)
+    if (!isnan(findings->f[k][0]) && !zp_result_has(result, estimated[k].error)) return true;
+  return false;
+}
+
+/* -- by another mesh, from what was found ----------------------------------------------------------- */
+
+/* Coarser meshes say nothing about one that does not resolve the bend. */
+void zp_add_estimate(const ZpOtherMesh *other, const char *number, double change) {
+  ZpResult *result = other->result;
+  if (isnan(change) && result->resolution >= 1) return;
+  for (int k = 0; k < COUNT; k++)
+    if (estimated[k].study == result->study && strcmp(estimated[k].value, number) == 0)
+      zp_result_add(result, estimated[k].error, estimated[k].unit,
+                    estimated[k].safety * fabs(change) / other->share_of_error);
+}
+
+/* Twice the elements, or as many as resolve the bend; of what is not in contact two thirds, if they resolve it. 0: too
+ * many. */
+static int other_elements(const ZpActuatorDef *def, bool contact, ZpResult *result) {
+  static const double enough = 2; /* on the bend */
+  const int elements = def->mesh.nodes - 1, fewer = (2 * elements + 1) / 3, twice = 2 * elements;
+  if (!contact && result->resolution >= enough && fewer >= FEWEST_ELEMENTS) return fewer;
+  if (result->resolution >= 1) return twice <= MOST_ELEMENTS ? twice : 0;
+  const Meshes meshes = finer_meshes(elements, result->resolution);
+  if (is_affordable(meshes)) note_finer(def, meshes, result);
+  return is_affordable(meshes) ? meshes.elements[1] : 0;
+}
+
+ZpStatus zp_estimate_from_there(ZpEquilibria *at, bool contact, ZpOnOtherMesh *solve_on, void *user, ZpError *err) {
+  const ZpActuatorDef *def = at->model->whole;
+  const bool wanted = def->output.errors && has_others(def, false) && zp_outcome_good(at->result->outcome);
+  const int elements = wanted ? other_elements(def, contact, at->result) : 0;
+  ZpModel *model;
+  ZpRest rest;
+  if (elements == 0) return ZP_OK;
+  ZpStatus status = zp_model_create_on_mesh(at->model, elements + 1, &model, err);
+  if (status != ZP_OK) return status;
+  const ZpOtherMesh other = {&rest, at->result, fabs(1 - square((def->mesh.nodes - 1) / (double)elements))};
+  const bool opened = zp_rest_open(&rest, model, NULL, NULL);
+  rest.statics.stop = at->rest.statics.stop;
+  rest.statics.caller = at;
+  if (opened) solve_on(user, &other);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+  return opened ? ZP_OK : zp_fail_memory(err);
+}
+
+/* -- by solving again ------------------------------------------------------------------------------ */
 
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
   ZpStudy study = result->study;
   if (!task->def->output.errors || !is_estimated(study) || !has_others(task->def, moves)) return ZP_OK;
-  const ZpTopology topology = zp_topology_of(task->def);
-  Findings findings = {.free_end = zp_ends_free(&topology)};
+  Findings findings;
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
-  const Meshes meshes = choose_meshes(task->def, &findings, moves, result);
+  Meshes meshes = {.others = 0};
+  if (zp_outcome_good(result->outcome) && lacks_estimate(result, &findings))
+    meshes = choose_meshes(task->def, moves, result);
   for (int mesh = 1; mesh <= meshes.others && status == ZP_OK; mesh++) {
     const ZpActuatorDef def = on_mesh(*task->def, meshes.elements[mesh], moves);
     status = solve(task, moves ? zp_study_zip_time : run, study, mesh, &def, &findings, err);
   }
   for (int k = 0; k < COUNT && status == ZP_OK; k++)
-    if (estimated[k].study == study && zp_result_has(result, estimated[k].value))
+    if (estimated[k].study == study && zp_result_has(result, estimated[k].value) &&
+        !zp_result_has(result, estimated[k].error))
       zp_result_add(result, estimated[k].error, estimated[k].unit, error_of(&findings, &meshes, k));
   return status;
 }

@@ -6,7 +6,6 @@
 
 #include "base/fail.h"
 #include "def/device.h"
-#include "study/equilibria.h"
 #include "study/sensitivity.h"
 
 static const ZpColumn columns[] = {
@@ -94,6 +93,12 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
 }
 
+/* Estimated errors; `user` is a Finder. */
+static void estimate(void *user, const ZpOtherMesh *other) {
+  Finder *f = user;
+  zp_estimate_limits(&f->at.rest, f->limits, order, ZP_LIMIT_KINDS, other);
+}
+
 static void describe(Finder *f, ZpResult *r) {
   ZpStatics *statics = &f->at.rest.statics;
   bool stopped = statics->stopped, hangs = f->limits->hangs, lost = zp_limits_lost(f->limits);
@@ -156,6 +161,7 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status == ZP_OK && !f.limits) status = zp_fail_memory(err);
   if (status == ZP_OK) run(&f, result);
   if (status == ZP_OK && f.limits->hangs) status = zp_sensitivity_of(&f.at.rest, derive, &f, result, err);
+  if (status == ZP_OK && f.limits->hangs) status = zp_estimate_from_there(&f.at, true, estimate, &f, err);
   zp_equilibria_close(&f.at);
   return status;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "def/check.h"
+#include "rest/refine.h"
 
 /* -- sensitivity.by --------------------------------------------------------------------------------- */
 
@@ -154,20 +155,36 @@ void zp_describe_limits(const ZpStatics *statics, const ZpLimits *limits, bool l
   if (trouble) say(r, ": %s", trouble);
 }
 
+/* Which of the first k limits is this one? A release is at most the closing voltage, whatever its state says. */
+static size_t same_as(const ZpLimits *limits, const ZpLimitKind order[], size_t k) {
+  size_t same = 0;
+  while (same < k && limits->limit[order[same]].value != limits->limit[order[k]].value)
+    same++;
+  return same;
+}
+
 void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
                       ZpRestSensitivity *slope, ZpResult *result) {
   double found[ZP_LIMIT_KINDS];
   for (size_t k = 0; k < count; k++) {
     const ZpLimit *limit = &limits->limit[order[k]];
     const char *output = number[order[k]].name;
-    size_t same = 0; /* a release is at most the closing voltage, whatever its state says */
-    while (same < k && limits->limit[order[same]].value != limit->value)
-      same++;
+    const size_t same = same_as(limits, order, k);
     found[k] = same < k ? found[same] : derive_limit(rest, limits, order[k], slope);
     if (isnan(found[k]) && !isnan(limit->value) && !has_none(result, output))
       zp_result_note(result, "%s has no derivatives: %s", output,
                      limit->end == ZP_TRACK_ARRIVED ? "beyond it the closing voltage jumps"
                                                     : "the slope of a force jumps at this state");
     zp_result_add_sensitivity(result, output, slope->key, found[k]);
+  }
+}
+
+void zp_estimate_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
+                        const ZpOtherMesh *other) {
+  double change[ZP_LIMIT_KINDS];
+  for (size_t k = 0; k < count; k++) {
+    const size_t same = same_as(limits, order, k);
+    change[k] = same < k ? change[same] : zp_refine_limit(rest, limits, order[k], other->rest);
+    zp_add_estimate(other, number[order[k]].name, change[k]);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "rest/limits.h"
 #include "rest/sensitivity.h"
+#include "study/estimate.h"
 
 /* Check sensitivity.by: real keys, each once, whose derivatives there are. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err);
@@ -29,5 +30,9 @@ void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t cou
 void zp_describe_limits(const ZpStatics *statics, const ZpLimits *limits, bool load, ZpResult *result);
 void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
                       ZpRestSensitivity *slope, ZpResult *result);
+
+/* Add the estimated errors of limits by another mesh. */
+void zp_estimate_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
+                        const ZpOtherMesh *other);
 
 #endif

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "study/equilibria.h"
+#include "rest/refine.h"
 #include "study/sensitivity.h"
 
 static const ZpColumn columns[] = {
@@ -99,6 +99,17 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
                               found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
 
+/* Estimated errors; `user` is a ZpEquilibria. */
+static void estimate(void *user, const ZpOtherMesh *other) {
+  const ZpStatics *at = &((ZpEquilibria *)user)->rest.statics, *to = &other->rest->statics;
+  const bool found = zp_refine_rest(at, other->rest);
+  zp_add_estimate(other, "stroke_m", found ? zp_statics_stroke(to) - zp_statics_stroke(at) : NAN);
+  if (zp_is_pair(&at->model->topology))
+    zp_add_estimate(other, "opening_m", found ? zp_statics_opening(to) - zp_statics_opening(at) : NAN);
+  if (zp_tells_angle(at->model))
+    zp_add_estimate(other, "angle_rad", found ? zp_statics_angle(to) - zp_statics_angle(at) : NAN);
+}
+
 static void run(ZpEquilibria *at) {
   ZpResult *result = at->result;
   ZpStatics *s = &at->rest.statics;
@@ -151,6 +162,8 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   if (status == ZP_OK) run(&at);
   if (status == ZP_OK && result->outcome == ZP_CONVERGED)
     status = zp_sensitivity_of(&at.rest, derive, NULL, result, err);
+  if (status == ZP_OK && result->outcome == ZP_CONVERGED)
+    status = zp_estimate_from_there(&at, false, estimate, &at, err);
   zp_equilibria_close(&at);
   return status;
 }

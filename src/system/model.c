@@ -75,12 +75,24 @@ static void add_laws(ZpModel *model) {
     if (!table[k]->acts || table[k]->acts(model)) zp_model_add_term(model, table[k]);
 }
 
+static void add_laws_of_all(ZpModel *model) {
+  for (size_t k = 0; k < model->members; k++)
+    add_laws(model + k);
+}
+
 ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table_of_drive, ZpModel **out,
                                 ZpError *err) {
   ZpStatus status = zp_model_build(def, table_of_drive, out, err);
-  for (size_t k = 0; status == ZP_OK && k < (*out)->members; k++)
-    add_laws(*out + k);
+  if (status == ZP_OK) add_laws_of_all(*out);
   return status;
+}
+
+ZpStatus zp_model_create_on_mesh(const ZpModel *model, int nodes, ZpModel **out, ZpError *err) {
+  ZpStatus status = zp_model_build_on_mesh(model, nodes, out, err);
+  if (status != ZP_OK) return status;
+  add_laws_of_all(*out);
+  zp_model_take_laws(*out, model);
+  return ZP_OK;
 }
 
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {

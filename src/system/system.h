@@ -10,6 +10,10 @@ bool zp_model_add_term(ZpModel *model, const ZpTerm *term);
 /* Add to a model and its members those laws of another that a program has added. */
 void zp_model_take_laws(ZpModel *model, const ZpModel *from);
 
+/* A model of the same actuator with so many nodes, which mesh.nodes allows, without a table of voltages. ZP_MACHINE: no
+ * memory. */
+ZpStatus zp_model_create_on_mesh(const ZpModel *model, int nodes, ZpModel **out, ZpError *err);
+
 /* Allocate the arrays of `eval`, with `solves` also those for held forces; false if there is no memory. */
 bool zp_system_create(const ZpModel *model, bool solves, ZpEval *eval);
 void zp_system_destroy(ZpEval *eval);
