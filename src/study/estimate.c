@@ -201,13 +201,14 @@ void zp_add_estimate(const ZpOtherMesh *other, const char *number, double change
                     estimated[k].safety * fabs(change) / other->share_of_error);
 }
 
-/* Twice the elements, or as many as resolve the bend; of what is not in contact two thirds, if they resolve it. 0: too
- * many. */
+/* Twice the elements, and at least four on the bend, or two on a bend that the mesh does not resolve; of what is not in
+ * contact two thirds, if that leaves two. 0: too many. */
 static int other_elements(const ZpActuatorDef *def, bool contact, ZpResult *result) {
-  static const double enough = 2; /* on the bend */
-  const int elements = def->mesh.nodes - 1, fewer = (2 * elements + 1) / 3, twice = 2 * elements;
+  static const double enough = 3, several = 4; /* on the bend */
+  const int elements = def->mesh.nodes - 1, fewer = (2 * elements + 1) / 3;
   if (!contact && result->resolution >= enough && fewer >= FEWEST_ELEMENTS) return fewer;
-  if (result->resolution >= 1) return twice <= MOST_ELEMENTS ? twice : 0;
+  const int more = (int)ceil(elements * fmax(2, several / result->resolution));
+  if (result->resolution >= 1) return more <= MOST_ELEMENTS ? more : 0;
   const Meshes meshes = finer_meshes(elements, result->resolution);
   if (is_affordable(meshes)) note_finer(def, meshes, result);
   return is_affordable(meshes) ? meshes.elements[1] : 0;
