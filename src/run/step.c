@@ -262,7 +262,7 @@ static bool narrow(ZpSim *sim, ZpLanding landing, Bracket *b, ZpStepLimit *limit
 /* Take the last step again until it ends where the run does. */
 static void land(ZpSim *sim, ZpLanding landing, ZpStepLimit *limit) {
   enum { MOST_TRIES = 50 };
-  const double shortest = 1e-15 * sim->state->t, least = 1e-12 * sim->model->L; /* far below what a step leaves */
+  const double shortest = 1e-15 * sim->state->t, least = 1e-14 * sim->model->L;
   Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing), .aim = 0.5 * least};
   bool landed = b.left_late >= -least;
   return_to_start(sim);
