@@ -242,31 +242,37 @@ void zp_sim_book_links(ZpSim *sim) {
 /* Instants in a step, s, and what is left at them: before and at or after the end of the run. */
 typedef struct Bracket {
   double early, late, left_early, left_late;
+  double aim; /* a trial aims so far beyond the end, m: an aim at the end itself would often end before it */
+  int stayed; /* the instant that stayed in the last trial: 1 `early`, -1 `late`, 0 none yet */
 } Bracket;
 
-/* One trial of the method of false position, in which a point that stays counts half => whether a step was found. */
+/* One trial of the method of false position, in which a point that stays again counts half => whether a step was found.
+ */
 static bool narrow(ZpSim *sim, ZpLanding landing, Bracket *b, ZpStepLimit *limit) {
-  if (!take(sim, b->late - b->left_late * (b->late - b->early) / (b->left_late - b->left_early), limit)) return false;
+  const double share = (b->left_late + b->aim) / (b->left_late - b->left_early);
+  if (!take(sim, b->late - share * (b->late - b->early), limit)) return false;
   double left = zp_sim_left(sim, landing);
   if (left > 0)
-    *b = (Bracket){sim->state->t, b->late, left, 0.5 * b->left_late};
+    *b = (Bracket){sim->state->t, b->late, left, (b->stayed < 0 ? 0.5 : 1) * b->left_late, b->aim, -1};
   else
-    *b = (Bracket){b->early, sim->state->t, 0.5 * b->left_early, left};
+    *b = (Bracket){b->early, sim->state->t, (b->stayed > 0 ? 0.5 : 1) * b->left_early, left, b->aim, 1};
   return true;
 }
 
 /* Take the last step again until it ends where the run does. */
 static void land(ZpSim *sim, ZpLanding landing, ZpStepLimit *limit) {
   enum { MOST_TRIES = 50 };
-  const double shortest = 1e-15 * sim->state->t, least = 1e-15 * sim->model->L; /* rounding */
-  Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing)};
+  const double shortest = 1e-15 * sim->state->t, least = 1e-14 * sim->model->L;
+  Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing), .aim = 0.5 * least};
+  bool landed = b.left_late >= -least;
   return_to_start(sim);
   b.early = sim->state->t;
   b.left_early = sim->left_before = zp_sim_left(sim, landing);
   bool inside = b.left_early > 0 && isfinite(b.left_early);
-  for (int k = 0; k < MOST_TRIES && inside && b.late - b.early > shortest && b.left_late < -least; k++) {
+  for (int k = 0; k < MOST_TRIES && inside && !landed && b.late - b.early > shortest; k++) {
     if (!narrow(sim, landing, &b, limit)) break;
-    if (sim->state->t != b.late || b.left_late < -least) return_to_start(sim);
+    landed = sim->state->t == b.late && b.left_late >= -least;
+    if (!landed) return_to_start(sim);
   }
   if (inside) sim->landing = landing;
   if (sim->state->t == b.late && !sim->step_failed) return;
