@@ -127,7 +127,7 @@ TESTS(estimate_is_that_of_the_meshes, 0, 4) {
   ck_near(error, number->safety * expected, 1e-9); /* 1.8e-10 measured */
 }
 
-/* (21.6): from the number of the study to that on another mesh, from scratch. Two thirds of the elements of what only
+/* (21.4): from the number of the study to that on another mesh, from scratch. Two thirds of the elements of what only
  * hangs; four elements on the bend of a pull-in whose front is between other nodes there, where its ripple has several
  * crests (8.5e-3 measured); twice the elements of a pull-in and a release whose front is at about the same place
  * (2.7e-3 of the latter), of a gradual closing, and of the largest load. */
