@@ -158,7 +158,7 @@ ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, const ZpRe
 /* The states from which no case starts after this one are freed. */
 static void forget_states(const ZpBatch *batch, size_t index) {
   const size_t chunk = zp_case_chunk(batch->scenario), from = index / chunk * chunk;
-  size_t last[ZP_CHUNK_MOST];
+  size_t last[ZP_CHUNK_MOST] = {0};
   zp_case_last(batch->scenario, from, at_most(from + chunk, batch->count), last);
   for (size_t i = from; i <= index; i++)
     if (last[i - from] <= index) zp_result_forget_states(batch->result[i]);
