@@ -1174,7 +1174,7 @@ TEST(time_limit_counts_from_the_start_of_a_study) {
 }
 
 /* Drag and modulus from two runs in time and strokes at rest, all of one kind: they need no standard deviations. */
-TEST(rest_and_motion_in_one_fit) {
+NIGHTLY_TEST(rest_and_motion_in_one_fit) {
   ZpActuatorDef def = swinging("motion.csv; sag.csv; motion.csv", "damping.drag, ribbon.young_modulus");
   def.damping.drag = 0.03;
   write_swing("motion.csv", &def);
