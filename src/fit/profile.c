@@ -51,12 +51,6 @@ static void record(Profile *p, int which, double rise) {
   memcpy(point->z, p->at.z, sizeof point->z);
 }
 
-/* How far the sum of squares rises if the fit is linear. */
-static double parabola(const Profile *p, int which, double z) {
-  const double d = z - p->best->z[which];
-  return d * d / p->C[which][which];
-}
-
 /* From some values of all parameters along the valley of one, to its value z. */
 static void shift(Profile *p, const double *from, int which, double z) {
   double step[ZP_FIT_MOST];
@@ -89,10 +83,11 @@ static void begin_at(Profile *p, int which, double z) {
   if (p->at.square > square) shift(p, p->best->z, which, z);
 }
 
-/* Is the fit so far from linear that its derivatives have to be found again? */
+/* Is the rise so far from the parabola of a linear fit that the derivatives have to be found again? */
 static bool is_bent(const Profile *p, int which) {
   static const double off = 0.3, little = 0.1;
-  const double rise = p->at.square - p->best->square, expected = parabola(p, which, p->at.z[which]);
+  const double d = p->at.z[which] - p->best->z[which], expected = d * d / p->C[which][which];
+  const double rise = p->at.square - p->best->square;
   return fabs(rise - expected) > off * expected + little * p->rise;
 }
 
@@ -188,16 +183,13 @@ static bool find_all(Profile *p, ZpFitInterval *interval) {
   return !p->better;
 }
 
-/* One more step along the valley of a parameter, from a point there that has derivatives, and down to its floor. */
-static void walk(Profile *p, int which, double step) {
+/* Along the valley of a parameter to its value z, from a point there that has derivatives, and down to its floor. */
+static void walk(Profile *p, int which, double z) {
   enum { MOST = 3 };
+  const ZpFitPoint from = p->at;
   bool held[ZP_FIT_MOST] = {false};
-  double all[ZP_FIT_MOST];
   held[which] = true;
-  for (int k = 0; k < p->fit->n; k++)
-    all[k] = p->C[k][which] / p->C[which][which] * step;
-  put(p->fit, all, p->at.z);
-  zp_fit_find_values(p->fit, &p->at);
+  shift(p, from.z, which, z);
   zp_fit_descend(p->fit, held, MOST, &p->at);
 }
 
@@ -211,7 +203,7 @@ static void look_beyond(Profile *p, int which, double variance, double side) {
   zp_fit_copy_point(p->fit, p->best, &p->at);
   for (int k = 0; k < MOST && !p->better && zp_fit_goes_on(p->fit); k++) {
     const double before = p->at.z[which];
-    walk(p, which, side * s);
+    walk(p, which, fmin(fmax(before + side * s, p->fit->lower[which]), p->fit->upper[which]));
     const double rise = p->at.square - p->best->square;
     p->better = p->at.good && rise < -better;
     if (rise < p->rise) record(p, which, rise);
@@ -234,8 +226,9 @@ static bool is_lowest(Profile *p, double variance) {
   const double enough = fit->enough, rough = fit->rough;
   if (fit->runs == 0 || fit->keys == 0 || !zp_fit_covariance(fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
   fit->slopes = ZP_FIT_ONE_SIDED, fit->enough = 0.3, fit->rough = 10;
-  for (double side = -1; side < 2 && !p->better; side += 2)
-    look_beyond(p, loosest_of(p), variance, side);
+  const int loosest = loosest_of(p);
+  look_beyond(p, loosest, variance, -1);
+  if (!p->better) look_beyond(p, loosest, variance, 1);
   fit->slopes = ZP_FIT_CENTRAL, fit->enough = enough, fit->rough = rough;
   return !p->better;
 }

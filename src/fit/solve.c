@@ -218,11 +218,12 @@ static bool take(ZpFit *fit, Descent *d, double falls) {
   const bool better = fell > 0 && (d->trial.good || !d->point->good);
   const bool renews = d->keeps && (better ? fell < poor * falls : d->kept);
   if (better) {
-    if (d->keeps) learn(fit, d);
-    if (d->keeps)
+    if (d->keeps) {
+      learn(fit, d);
       copy_values(fit, &d->trial, d->point);
-    else
+    } else {
       zp_fit_copy_point(fit, &d->trial, d->point);
+    }
     d->kept = d->keeps;
     d->foreseen += falls;
     relax(d, fell / falls);
