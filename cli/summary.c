@@ -180,34 +180,42 @@ static void print_headlines(const ZpResult *result) {
   }
 }
 
-/* Print the swept keys of row `index`: "drive.voltage=5 kV". */
+/* Print keys of row `index`: "drive.voltage=5 kV". False if it has no values. */
+static bool print_keys(const ZpReport *report, size_t index, const int *key, size_t keys) {
+  ZpActuatorDef *def = zp_def_create();
+  const bool good = zp_scenario_def(report->scenario, index, def, NULL) == ZP_OK;
+  for (size_t k = 0; k < keys && good; k++) {
+    char text[64], name[ZP_SCENARIO_KEY_SIZE];
+    zp_value_print(key[k], zp_def_get(def, key[k]), text, sizeof text);
+    printf("  %s = %-10s", zp_scenario_key(report->scenario, key[k], name), text);
+  }
+  zp_def_destroy(def);
+  return good;
+}
+
+/* With the swept keys. */
 static void print_row(const ZpReport *report, size_t index) {
   size_t lists;
   const int *list = zp_scenario_lists(report->scenario, &lists);
   const ZpResult *result = report->rows->get(report->rows->user, index);
-  ZpActuatorDef *def = zp_def_create();
-  const bool good = zp_scenario_def(report->scenario, index, def, NULL) == ZP_OK;
-  for (size_t k = 0; k < lists && good; k++) {
-    char text[64], name[ZP_SCENARIO_KEY_SIZE];
-    zp_value_print(list[k], zp_def_get(def, list[k]), text, sizeof text);
-    printf("  %s = %-10s", zp_scenario_key(report->scenario, list[k], name), text);
-  }
-  zp_def_destroy(def);
-  if (!good) return;
+  if (!print_keys(report, index, list, lists)) return;
   printf("  %-12s", zp_outcome_name(zp_result_outcome(result)));
   print_headlines(result);
   printf("\n");
 }
 
-/* Print the best cases of an optimisation. */
+/* Print the best cases of an optimisation; of designs with samples the constraints, too. */
 static void print_optimum(const ZpReport *report) {
-  printf("%s\n", report->optimum->message);
-  for (size_t i = 0; i < report->optimum->count; i++) {
-    print_row(report, report->optimum->row[i]);
-    for (size_t k = 0; k < report->optimum->objectives; k++)
-      printf(
-          "    %s = %.6g\n", report->optimum->objective[k],
-          zp_result_get(report->rows->get(report->rows->user, report->optimum->row[i]), report->optimum->objective[k]));
+  const ZpOptimum *optimum = report->optimum;
+  printf("%s\n", optimum->message);
+  for (size_t i = 0; i < optimum->count; i++) {
+    const size_t row = optimum->row[i];
+    if (optimum->samples == 1)
+      print_row(report, row);
+    else if (print_keys(report, row, optimum->variable, optimum->variables))
+      printf("  %zu samples\n", optimum->samples);
+    for (size_t g = 0; g < (optimum->samples == 1 ? optimum->objectives : optimum->goals); g++)
+      printf("    %s = %.6g\n", optimum->goal[g], optimum->value[i * optimum->goals + g]);
   }
 }
 

@@ -278,11 +278,12 @@ TEST(doubts_are_noted) {
 /* Standard deviation of the pull-in voltage over the samples of a scenario. */
 static double deviation_of(const ZpScenario *s) {
   enum { SAMPLES = 64 };
-  double value[SAMPLES], work[SAMPLES];
+  double value[SAMPLES];
+  ZpSample work[SAMPLES];
   ck_assert_uint_eq(zp_scenario_count(s), SAMPLES);
   for (size_t i = 0; i < SAMPLES; i++)
     value[i] = zp_result_get(run(s, i), "pull_in_voltage_V");
-  return zp_statistics(zp_scenario_design(s), value, work).deviation;
+  return zp_statistics(zp_scenario_design(s), value, work).number[ZP_STANDARD_DEVIATION];
 }
 
 /* A fit that tells the stiffness E h^3 but neither factor: with the correlation the pull-in voltage is known well,

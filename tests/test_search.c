@@ -56,23 +56,22 @@ static void open_bench(Bench *b, const char *folder, const char *const *sets) {
   ZpSearch *s = &b->search;
   s->scenario = b->scenario;
   s->options = &b->options;
-  ck_assert_int_eq(zp_scenario_def(b->scenario, 0, &s->def, &err), ZP_OK);
-  s->study = zp_scenario_study(b->scenario);
-  ck_ok(zp_problem_read(&s->def, &s->problem, &err));
+  ck_ok(zp_search_begin(s, &err));
   resolve_goals(s);
   s->room = 2 * s->problem.evaluations;
   s->excluded = NAN;
-  s->old = calloc(s->room, sizeof *s->old);
+  s->old = calloc(s->room * zp_search_samples(s), sizeof *s->old);
   s->point = calloc(s->room, sizeof *s->point);
   ck_assert_int_eq(pthread_mutex_init(&s->lock, NULL), 0);
   make_empty(folder);
   ck_assert_int_eq(zp_campaign_hash(s->study, &s->def, &s->start, &err), ZP_OK);
-  ck_ok(zp_journal_open(folder, s->study, false, s->room, &s->journal, &err));
+  ck_ok(zp_journal_open(folder, s->study, false, s->room * zp_search_samples(s), &s->journal, &err));
 }
 #define OPEN(bench, folder, ...) open_bench(bench, folder, (const char *const[]){__VA_ARGS__, NULL})
 
 static void close_bench(Bench *b) {
   zp_journal_close(b->search.journal);
+  zp_search_end(&b->search);
   zp_scenario_destroy(b->scenario);
   free(b->search.old);
   free(b->search.point);
@@ -107,6 +106,26 @@ TEST(slopes_are_those_of_goals) {
     for (int g = 0; g < 2; g++)
       ck_near(at->slope[g][k], (up->value[g] - down->value[g]) / (2 * step),
               8e-7); /* 2.6e-7 measured, of second order */
+  }
+  close_bench(&b);
+}
+
+/* With keys that are drawn, of numbers of the distribution: the same samples stand for all designs. */
+TEST(slopes_over_samples) {
+  Bench b;
+  OPEN(&b, "samples", "study=stationary", "mesh.nodes=9", "output.errors=false", "solver.tolerance=1e-8", BOTH,
+       "ribbon.young_modulus=normal(200 GPa, 10 GPa)", "medium.permittivity=uniform(2.5, 3)", "sampling.count=20",
+       "optimize.objective=max stroke_m; min stroke_m.standard_deviation; min opening_m.max",
+       "optimize.constraints=opening_m <= 7 mm; stroke_m >= 1 mm", "optimize.evaluations=20");
+  static const double step = 1e-4;
+  ck_assert_uint_eq(zp_search_samples(&b.search), 20);
+  b.search.derivatives = true;
+  const ZpPoint *at = evaluate(&b, 0, 0.3, 0.6);
+  for (size_t k = 0; k < 2; k++) {
+    const ZpPoint *up = evaluate(&b, 1, 0.3 + (k == 0) * step, 0.6 + (k == 1) * step);
+    const ZpPoint *down = evaluate(&b, 2, 0.3 - (k == 0) * step, 0.6 - (k == 1) * step);
+    for (int g = 0; g < 5; g++)
+      ck_near(at->slope[g][k], (up->value[g] - down->value[g]) / (2 * step), 2e-8); /* 6.6e-9 measured */
   }
   close_bench(&b);
 }

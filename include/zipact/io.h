@@ -137,14 +137,19 @@ typedef struct ZpRows {
 /* The result of an optimisation among the cases of its report. */
 typedef struct ZpOptimum {
   const size_t *row; /* [count] the best case; with several objectives those of the Pareto front, in the order of the
-                      * first objective */
+                      * first objective. Of a design with samples the first one */
   size_t count;
   bool feasible;     /* they satisfy all constraints; otherwise row[0] has the smallest violation */
   double excluded;   /* share of the box that contains no feasible design, according to the cases; NAN: not examined */
   ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED */
   char message[256]; /* one sentence about the result */
-  const char *const *objective; /* [objectives] names of outputs */
-  size_t objectives;
+  const int *variable;          /* [variables] the keys that were searched */
+  size_t variables;
+  const char *const *goal; /* [goals] names of outputs, first those of the objectives, then of the constraints; of a
+                            * design with samples "output.statistic" */
+  const double *value;     /* [count][goals] SI; NAN: there is none */
+  size_t goals, objectives;
+  size_t samples; /* cases of a design: 1 without distributions */
 } ZpOptimum;
 
 /* A report: its folder, its runs and their results. */

@@ -1,4 +1,4 @@
-/* Limits: CASES_MOST cases, a bound against requests by mistake; VALUES_MOST values in all lists, so that the written
+/* Limits: ZP_CASES_MOST cases, a bound against requests by mistake; VALUES_MOST values in all lists, so that the written
  * scenario stays below the size that can be read.
  *
  * A problem that a later --set may solve, such as lists of different lengths that vary together, is reported only when
@@ -17,7 +17,7 @@
 #include "io/value.h"
 #include "sample/sobol.h"
 
-enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
+enum { VALUES_MOST = 20000 };
 
 static bool varies(const ZpSlot *slot) {
   return slot->is_list || slot->spread.kind != ZP_DISTRIBUTION_NONE;
@@ -157,15 +157,15 @@ static ZpStatus count_cases(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
     if (axis == plan->axes || plan->axis[axis] != slot->key) continue;
     axis++;
     const size_t length = plan->tied[plan->at[v]] ? plan->together : slot->count;
-    if (cases > CASES_MOST / length)
-      return zp_fail(err, ZP_BAD_INPUT, "more than %d combinations of the lists' values", CASES_MOST);
+    if (cases > ZP_CASES_MOST / length)
+      return zp_fail(err, ZP_BAD_INPUT, "more than %d combinations of the lists' values", ZP_CASES_MOST);
     cases *= length;
   }
   if (plan->design.dimensions > zp_design_most(&plan->design))
     return zp_fail(err, ZP_BAD_INPUT, "more than %d keys with a distribution", zp_design_most(&plan->design));
   const size_t samples = zp_design_samples(&plan->design);
-  if (cases > CASES_MOST / samples)
-    return zp_fail(err, ZP_BAD_INPUT, "more than %d cases: %zu samples of %zu combinations", CASES_MOST, samples,
+  if (cases > ZP_CASES_MOST / samples)
+    return zp_fail(err, ZP_BAD_INPUT, "more than %d cases: %zu samples of %zu combinations", ZP_CASES_MOST, samples,
                    cases);
   plan->count = cases * samples;
   return ZP_OK;

@@ -13,6 +13,9 @@
 #include "sample/design.h"
 #include "sample/together.h"
 
+/* Most cases of a scenario. */
+enum { ZP_CASES_MOST = 1000000 };
+
 /* The given value of a key. */
 typedef struct ZpSlot {
   int key;

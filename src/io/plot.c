@@ -203,7 +203,7 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
 static void define_optimum(const ZpOptimum *optimum, FILE *file) {
   fputs("objectives = '", file);
   for (size_t i = 0; i < optimum->objectives; i++)
-    fprintf(file, "%s ", optimum->objective[i]);
+    fprintf(file, "%s ", optimum->goal[i]);
   fprintf(file, "'\narray front[%zu]\n", optimum->count ? optimum->count : 1);
   for (size_t i = 0; i < optimum->count; i++)
     fprintf(file, "front[%zu] = %zu\n", i + 1, optimum->row[i]);

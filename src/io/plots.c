@@ -87,7 +87,7 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
               {"plane", grid && plot->axes == 2},
               {"planes", grid && plot->axes == 3},
               {"lines", plot->report->count > 2 && varied >= (axis ? 3 : 2)}, /* two that are drawn or optimised */
-              {"front", optimum && optimum->objectives > 1 && optimum->count > 1},
+              {"front", optimum && !samples && optimum->objectives > 1 && optimum->count > 1},
               {"panel", count_panels(plot) == 1},
               {"panels", count_panels(plot) > 1}};
   for (int k = 0; k < ZP_FURTHER; k++)

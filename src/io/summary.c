@@ -214,19 +214,6 @@ static void put_outcome(ZpJson *json, const ZpReport *report) {
   zp_json_number(json, "wall_time_s", report->wall_time, "s");
 }
 
-/* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
-static void put_optimum(ZpJson *json, const ZpReport *report) {
-  const ZpOptimum *optimum = report->optimum;
-  zp_json_open(json, "optimum", '{');
-  zp_json_bool(json, "feasible", optimum->feasible);
-  zp_json_number(json, "excluded_share", optimum->excluded, "1");
-  zp_json_open(json, "cases", '[');
-  for (size_t i = 0; i < optimum->count; i++)
-    put_row(json, report, optimum->row[i]);
-  zp_json_close(json, ']');
-  zp_json_close(json, '}');
-}
-
 /* The numbers of a sweep as a whole. */
 static void put_largest(ZpJson *json, const ZpReport *report) {
   static const struct {
@@ -253,7 +240,7 @@ typedef struct Samples {
   const ZpDesign *design;
   size_t count;       /* number of samples of a combination */
   double *value;      /* [COLUMNS][count] */
-  double *work;       /* [count] */
+  ZpSample *work;     /* [count] */
   ZpIndices *indices; /* [dimensions] of a column */
 } Samples;
 
@@ -295,18 +282,12 @@ static void put_indices(ZpJson *json, const Samples *s, const double *value) {
 }
 
 static void describe(ZpJson *json, const char *output, const Samples *s, const double *value) {
-  static const char *const quantile[ZP_QUANTILES] = {"quantile_05", "quantile_25", "median", "quantile_75",
-                                                     "quantile_95"};
   const ZpStatistics x = zp_statistics(s->design, value, s->work);
   zp_json_open(json, output, '{');
   zp_json_number(json, "count", (double)x.count, "count");
   zp_json_number(json, "missing", (double)x.missing, "count");
-  zp_json_number(json, "mean", x.mean, "1");
-  zp_json_number(json, "standard_deviation", x.deviation, "1");
-  zp_json_number(json, "min", x.least, "1");
-  for (int k = 0; k < ZP_QUANTILES; k++)
-    zp_json_number(json, quantile[k], x.quantile[k], "1");
-  zp_json_number(json, "max", x.most, "1");
+  for (int k = 0; k < ZP_STATISTICS; k++)
+    zp_json_number(json, zp_statistic_name[k], x.number[k], "1");
   if (s->design->indices) put_indices(json, s, value);
   zp_json_close(json, '}');
 }
@@ -331,22 +312,57 @@ static void put_combination(ZpJson *json, const Samples *s, size_t start) {
   zp_json_close(json, '}');
 }
 
+static void open_samples(ZpJson *json, const ZpReport *report, Samples *s) {
+  const ZpDesign *design = zp_scenario_design(report->scenario);
+  *s = (Samples){.design = design, .count = zp_design_samples(design)};
+  s->value = calloc(COLUMNS * s->count, sizeof *s->value);
+  s->work = calloc(s->count, sizeof *s->work);
+  s->indices = calloc((size_t)design->dimensions, sizeof *s->indices);
+  json->bad |= !zp_cases_open(report, NULL, &s->cases) || !s->value || !s->work || !s->indices;
+}
+
+static void close_samples(Samples *s) {
+  zp_cases_close(&s->cases);
+  free(s->value);
+  free(s->work);
+  free(s->indices);
+}
+
 /* For an interrupted report only complete combinations. */
 static void put_statistics(ZpJson *json, const ZpReport *report) {
-  const ZpDesign *design = zp_scenario_design(report->scenario);
-  Samples s = {.design = design, .count = zp_design_samples(design)};
-  s.value = calloc(COLUMNS * s.count, sizeof *s.value);
-  s.work = calloc(s.count, sizeof *s.work);
-  s.indices = calloc((size_t)design->dimensions, sizeof *s.indices);
-  json->bad |= !zp_cases_open(report, NULL, &s.cases) || !s.value || !s.work || !s.indices;
+  Samples s;
+  open_samples(json, report, &s);
   zp_json_open(json, "statistics", '[');
   for (size_t start = 0; start + s.count <= report->count && !json->bad; start += s.count)
     put_combination(json, &s, start);
   zp_json_close(json, ']');
-  zp_cases_close(&s.cases);
-  free(s.value);
-  free(s.work);
-  free(s.indices);
+  close_samples(&s);
+}
+
+/* -- the best cases --------------------------------------------------------------------------------- */
+
+/* Designs with samples, in the form of the statistics. */
+static void put_best_designs(ZpJson *json, const ZpReport *report) {
+  Samples s;
+  open_samples(json, report, &s);
+  for (size_t i = 0; i < report->optimum->count && !json->bad; i++)
+    put_combination(json, &s, report->optimum->row[i]);
+  close_samples(&s);
+}
+
+/* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
+static void put_optimum(ZpJson *json, const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  const bool samples = zp_scenario_design(report->scenario) != NULL;
+  zp_json_open(json, "optimum", '{');
+  zp_json_bool(json, "feasible", optimum->feasible);
+  zp_json_number(json, "excluded_share", optimum->excluded, "1");
+  zp_json_open(json, "cases", '[');
+  for (size_t i = 0; i < optimum->count && !samples; i++)
+    put_row(json, report, optimum->row[i]);
+  if (samples) put_best_designs(json, report);
+  zp_json_close(json, ']');
+  zp_json_close(json, '}');
 }
 
 /* -- the whole -------------------------------------------------------------------------------------- */

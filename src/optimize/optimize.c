@@ -18,30 +18,19 @@
 struct ZpOptimization {
   ZpSearch search;
   ZpScenario *cases; /* all computed cases */
-  size_t *number;    /* [report.count] number of the case of each row */
-  size_t *best;      /* [optimum.count] rows */
-  const char *objective[ZP_GOALS_MOST];
+  size_t samples;    /* of a design, each a row */
+  size_t *number;    /* [designs] of those that are done, in the order of the rows */
+  size_t designs;
+  size_t *best;      /* [optimum.count] places of them, then their first rows */
+  double *value;     /* [optimum.count][goals] */
+  const char *goal[ZP_GOALS_MOST + ZP_BOUNDS_MOST];
+  int variable[ZP_VARIABLES_MOST];
   ZpOptimum optimum;
   ZpRows rows;
   ZpReport report;
 };
 
 /* -- the search ------------------------------------------------------------------------------------- */
-
-/* The values of the variables are ignored; every other key must have a single value. */
-static ZpStatus check_lists(const ZpScenario *scenario, const ZpProblem *problem, ZpError *err) {
-  size_t keys;
-  const int *key = zp_scenario_lists(scenario, &keys);
-  for (size_t k = 0; k < keys; k++) {
-    bool is_variable = false;
-    for (size_t i = 0; i < problem->variables; i++)
-      is_variable = is_variable || problem->variable[i].key == key[k];
-    if (!is_variable)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: optimize takes one value, not a list or a distribution",
-                     ZP_KEY_NAME(key[k]));
-  }
-  return ZP_OK;
-}
 
 /* Does this result have a derivative of any goal? */
 static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
@@ -61,11 +50,9 @@ static void share_tolerance(ZpSearch *s, const ZpActuatorDef *with, const ZpResu
 /* Run the centre of the box to find out which outputs exist, before anything is written. */
 static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
   ZpProblem *p = &s->problem;
-  ZpActuatorDef def = s->def;
+  ZpActuatorDef def = {0};
   ZpResult *result = NULL;
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < p->variables && status == ZP_OK; i++)
-    status = zp_def_set(&def, p->variable[i].key, zp_variable_value(&p->variable[i], 0.5), err);
+  ZpStatus status = zp_def_assign(&def, &s->def, err);
   if (status == ZP_OK) snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", ZP_KEY_NAME(p->variable[0].key));
   if (status == ZP_OK && zp_study_check(s->study, &def, NULL) != ZP_OK) *def.sensitivity.by = 0;
   if (status == ZP_OK) status = zp_data_study_run(s->study, &def, NULL, &result, err);
@@ -83,7 +70,7 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
 static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
   ZpSearch *s = user;
   (void)good;
-  if (number < s->room) s->old[number] = hash;
+  if (number < s->room * zp_search_samples(s)) s->old[number] = hash;
 }
 
 /* With constraints twice as many cases, as far as the lists of a scenario can hold them. */
@@ -102,22 +89,21 @@ static void stop_early(const ZpProblem *p, ZpActuatorDef *def) {
 
 static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   ZpError reason;
-  ZpStatus status = zp_scenario_def(s->scenario, 0, &s->def, err);
-  s->study = zp_scenario_study(s->scenario);
-  if (status == ZP_OK) status = zp_problem_read(&s->def, &s->problem, err);
+  ZpStatus status = zp_search_begin(s, err);
   if (status == ZP_OK) stop_early(&s->problem, &s->def);
-  if (status == ZP_OK) status = check_lists(s->scenario, &s->problem, err);
   if (status == ZP_OK) status = zp_data_check(s->study, &s->def, err);
   if (status == ZP_OK && (status = look_ahead(s, &reason)) != ZP_OK) zp_fail(err, status, "%s", reason.message);
   if (status != ZP_OK) return status;
-  s->state.cases = s->problem.evaluations;
+  const size_t samples = zp_search_samples(s);
   s->room = room_of(&s->problem);
+  s->state.cases = s->problem.evaluations * samples;
   s->excluded = NAN;
-  s->old = calloc(s->room, sizeof *s->old);
+  s->old = calloc(s->room * samples, sizeof *s->old);
   s->point = calloc(s->room, sizeof *s->point);
   if (!s->old || !s->point) return zp_fail_memory(err);
   status = zp_campaign_hash(s->study, &s->def, &s->start, err);
-  if (status == ZP_OK) status = zp_journal_open(directory, s->study, s->options->resume, s->room, &s->journal, err);
+  if (status == ZP_OK)
+    status = zp_journal_open(directory, s->study, s->options->resume, s->room * samples, &s->journal, err);
   return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
 }
 
@@ -149,53 +135,75 @@ static ZpStatus search_all(ZpSearch *s, ZpError *err) {
   ZpStatus status = run_search(s, err);
   const bool ends = s->room == s->problem.evaluations || atomic_load(&s->stop) || holds(s);
   if (status != ZP_OK || ends) return status;
-  s->state.cases = s->state.done + s->room - s->problem.evaluations;
+  s->state.cases = s->state.done + (s->room - s->problem.evaluations) * zp_search_samples(s);
   return zp_search_exclude(s, err);
 }
 
 /* -- what was found --------------------------------------------------------------------------------- */
 
-static const ZpPoint *point_of(const ZpOptimization *o, size_t row) {
-  return &o->search.point[o->number[row]];
+static const ZpPoint *point_of(const ZpOptimization *o, size_t place) {
+  return &o->search.point[o->number[place]];
 }
 
-/* Does an earlier row of the front have the same objectives? Evolution may try a design twice. */
-static bool is_on_front(const ZpOptimization *o, size_t row) {
+/* Does an earlier design of the front have the same objectives? Evolution may try a design twice. */
+static bool is_on_front(const ZpOptimization *o, size_t place) {
   const ZpProblem *p = &o->search.problem;
   for (size_t k = 0; k < o->optimum.count; k++)
-    if (memcmp(point_of(o, o->best[k])->value, point_of(o, row)->value, p->objectives * sizeof(double)) == 0)
+    if (memcmp(point_of(o, o->best[k])->value, point_of(o, place)->value, p->objectives * sizeof(double)) == 0)
       return true;
   return false;
 }
 
-/* Rows that no other row betters or dominates. */
+/* Designs that no other one betters or dominates. */
 static void find_best(ZpOptimization *o) {
   const ZpProblem *p = &o->search.problem;
   size_t best = 0;
-  for (size_t row = 1; row < o->report.count; row++)
-    if (zp_is_better(p, point_of(o, row)->value, point_of(o, best)->value)) best = row;
-  if (o->report.count == 0) return;
+  for (size_t i = 1; i < o->designs; i++)
+    if (zp_is_better(p, point_of(o, i)->value, point_of(o, best)->value)) best = i;
+  if (o->designs == 0) return;
   o->optimum.feasible = zp_violation(p, point_of(o, best)->value) == 0;
   o->best[o->optimum.count++] = best;
   if (p->objectives == 1 || !o->optimum.feasible) return;
   o->optimum.count = 0;
-  for (size_t row = 0; row < o->report.count; row++) {
+  for (size_t i = 0; i < o->designs; i++) {
     bool dominated = false;
-    for (size_t other = 0; other < o->report.count && !dominated; other++)
-      dominated = zp_dominates(p, point_of(o, other)->value, point_of(o, row)->value);
+    for (size_t other = 0; other < o->designs && !dominated; other++)
+      dominated = zp_dominates(p, point_of(o, other)->value, point_of(o, i)->value);
     size_t place = o->optimum.count;
-    if (dominated || is_on_front(o, row)) continue;
-    for (; place > 0 && point_of(o, o->best[place - 1])->value[0] > point_of(o, row)->value[0]; place--)
+    if (dominated || is_on_front(o, i)) continue;
+    for (; place > 0 && point_of(o, o->best[place - 1])->value[0] > point_of(o, i)->value[0]; place--)
       o->best[place] = o->best[place - 1];
-    o->best[place] = row;
+    o->best[place] = i;
     o->optimum.count++;
   }
+}
+
+/* Describe them: their goals and their first rows. */
+static void tell_best(ZpOptimization *o) {
+  const ZpProblem *p = &o->search.problem;
+  for (size_t k = 0; k < o->optimum.count; k++) {
+    for (size_t g = 0; g < p->goals; g++)
+      o->value[k * p->goals + g] = zp_goal_output(p, g, point_of(o, o->best[k])->value[g]);
+    o->best[k] *= o->samples;
+  }
+  for (size_t g = 0; g < p->goals; g++)
+    o->goal[g] = p->goal[g].shown;
+  for (size_t i = 0; i < p->variables; i++)
+    o->variable[i] = p->variable[i].key;
+  o->optimum.row = o->best;
+  o->optimum.variable = o->variable;
+  o->optimum.variables = p->variables;
+  o->optimum.goal = o->goal;
+  o->optimum.value = o->value;
+  o->optimum.goals = p->goals;
+  o->optimum.objectives = p->objectives;
+  o->optimum.samples = o->samples;
 }
 
 /* The message if no case satisfies all constraints, with what is known about the designs between the cases. */
 static void describe_none(ZpOptimization *o, const char *when) {
   char *text = o->optimum.message;
-  const size_t size = sizeof o->optimum.message, cases = o->report.count;
+  const size_t size = sizeof o->optimum.message, cases = o->designs;
   const double excluded = o->optimum.excluded = o->search.excluded;
   if (isnan(excluded))
     snprintf(text, size,
@@ -217,7 +225,7 @@ static void describe_none(ZpOptimization *o, const char *when) {
 static void describe(ZpOptimization *o) {
   const bool stopped = atomic_load(&o->search.stop);
   char *text = o->optimum.message;
-  const size_t size = sizeof o->optimum.message, cases = o->report.count;
+  const size_t size = sizeof o->optimum.message, cases = o->designs;
   o->optimum.outcome = stopped ? ZP_INTERRUPTED : ZP_CONVERGED;
   o->optimum.excluded = NAN;
   const char *when = stopped ? "so far, " : "";
@@ -229,7 +237,7 @@ static void describe(ZpOptimization *o) {
     snprintf(text, size, "%sthe best of %zu cases", when, cases);
 }
 
-/* "KEY=[value, ...]" with the values of all rows, to be freed. */
+/* "KEY=[value, ...]" with the values of all designs, to be freed. */
 static char *list_of(const ZpOptimization *o, size_t variable) {
   const ZpInterval *v = &o->search.problem.variable[variable];
   char *text = NULL, value[ZP_NUMBER_SIZE];
@@ -237,9 +245,9 @@ static char *list_of(const ZpOptimization *o, size_t variable) {
   FILE *stream = open_memstream(&text, &size);
   if (!stream) return NULL;
   fprintf(stream, "%s=[", ZP_KEY_NAME(v->key));
-  for (size_t row = 0; row < o->report.count; row++) {
-    zp_number_print(zp_variable_value(v, point_of(o, row)->z[variable]), value, sizeof value);
-    fprintf(stream, "%s%s", row ? ", " : "", value);
+  for (size_t i = 0; i < o->designs; i++) {
+    zp_number_print(zp_variable_value(v, point_of(o, i)->z[variable]), value, sizeof value);
+    fprintf(stream, "%s%s", i ? ", " : "", value);
   }
   fputc(']', stream);
   if (fclose(stream) == 0) return text;
@@ -275,7 +283,7 @@ static ZpStatus list_cases(ZpOptimization *o, ZpError *err) {
 
 static const ZpResult *get_row(void *user, size_t index) {
   ZpOptimization *o = user;
-  return zp_journal_get(o->search.journal, o->number[index]);
+  return zp_journal_get(o->search.journal, o->number[index / o->samples] * o->samples + index % o->samples);
 }
 
 static ZpStatus get_status(void *user, ZpError *err) {
@@ -286,19 +294,18 @@ static ZpStatus report(ZpOptimization *o, ZpError *err) {
   const ZpSearch *s = &o->search;
   o->number = calloc(s->room, sizeof *o->number);
   o->best = calloc(s->room, sizeof *o->best);
+  o->value = calloc(s->room * s->problem.goals, sizeof *o->value);
   o->cases = zp_scenario_create();
-  if (!o->number || !o->best || !o->cases) return zp_fail_memory(err);
+  if (!o->number || !o->best || !o->value || !o->cases) return zp_fail_memory(err);
+  o->samples = zp_search_samples(s);
   o->rows = (ZpRows){.get = get_row, .status = get_status, .user = o};
   o->report = (ZpReport){.scenario = o->cases, .rows = &o->rows, .optimum = &o->optimum};
   for (size_t i = 0; i < s->room; i++)
-    if (s->point[i].done) o->number[o->report.count++] = i;
+    if (s->point[i].done) o->number[o->designs++] = i;
+  o->report.count = o->designs * o->samples;
   find_best(o);
   describe(o);
-  for (size_t k = 0; k < s->problem.objectives; k++)
-    o->objective[k] = s->problem.goal[k].output;
-  o->optimum.row = o->best;
-  o->optimum.objective = o->objective;
-  o->optimum.objectives = s->problem.objectives;
+  tell_best(o);
   if (o->report.count == 0) return zp_fail(err, ZP_MACHINE, "interrupted before the first case");
   return list_cases(o, err);
 }
@@ -335,7 +342,7 @@ ZpCampaignState zp_optimization_state(const ZpOptimization *optimization) {
 
 void zp_optimization_destroy(ZpOptimization *o) {
   if (!o) return;
-  zp_def_clear(&o->search.def);
+  zp_search_end(&o->search);
   zp_journal_close(o->search.journal);
   zp_scenario_destroy(o->cases);
   pthread_mutex_destroy(&o->search.lock);
@@ -343,5 +350,6 @@ void zp_optimization_destroy(ZpOptimization *o) {
   free(o->search.point);
   free(o->number);
   free(o->best);
+  free(o->value);
   free(o);
 }

@@ -38,15 +38,30 @@ static ZpStatus read_variable(char *text, ZpProblem *problem, ZpError *err) {
   return status;
 }
 
+/* "max_load_kg.quantile_05" => the output, and its statistic. Without one, an objective takes the mean, and a constraint
+ * holds for 95 of 100 samples. */
+static void take_statistic(ZpGoal *goal, bool is_bound) {
+  char *point = strrchr(goal->output, '.');
+  goal->statistic = !is_bound ? ZP_MEAN : goal->sign < 0 ? ZP_QUANTILE_05 : ZP_QUANTILE_95;
+  for (int k = 0; k < ZP_STATISTICS && point && !goal->named; k++) {
+    if (strcmp(point + 1, zp_statistic_name[k]) != 0) continue;
+    goal->statistic = (ZpStatistic)k;
+    goal->named = true;
+  }
+  if (goal->named) *point = 0;
+}
+
+/* `bound`: the text of a constraint's; NULL: the goal is an objective. */
 static ZpStatus add_goal(ZpProblem *problem, const char *key, const char *output, const char *bound, double sign,
                          size_t most, ZpError *err) {
   ZpGoal *goal = &problem->goal[problem->goals];
   if (problem->goals == most) return zp_fail(err, ZP_BAD_INPUT, "%s: more than %zu", key, most);
-  if (strlen(output) >= sizeof goal->output || strlen(bound) >= sizeof goal->bound_text)
+  if (strlen(output) >= sizeof goal->output || (bound && strlen(bound) >= sizeof goal->bound_text))
     return zp_fail(err, ZP_BAD_INPUT, "%s: \"%.80s\" is too long", key, output);
   *goal = (ZpGoal){.sign = sign};
   snprintf(goal->output, sizeof goal->output, "%s", output);
-  snprintf(goal->bound_text, sizeof goal->bound_text, "%s", bound);
+  if (bound) snprintf(goal->bound_text, sizeof goal->bound_text, "%s", bound);
+  take_statistic(goal, bound != NULL);
   problem->goals++;
   return ZP_OK;
 }
@@ -58,7 +73,7 @@ static ZpStatus read_objective(char *text, ZpProblem *problem, ZpError *err) {
   if (!blank || (!least && strncmp(word, "max ", 4) != 0) || strpbrk(zp_trim(blank), " \t"))
     return zp_fail(err, ZP_BAD_INPUT, "optimize.objective: \"%.80s\": write \"min mass_kg\" or \"max max_load_kg\"",
                    word);
-  ZpStatus status = add_goal(problem, "optimize.objective", zp_trim(blank), "", least ? 1 : -1, ZP_GOALS_MOST, err);
+  ZpStatus status = add_goal(problem, "optimize.objective", zp_trim(blank), NULL, least ? 1 : -1, ZP_GOALS_MOST, err);
   problem->objectives = problem->goals;
   return status;
 }
@@ -147,6 +162,14 @@ double zp_goal_slope(const ZpProblem *problem, size_t goal) {
 
 double zp_goal_value(const ZpProblem *problem, size_t goal, double output) {
   return zp_goal_slope(problem, goal) * (output - problem->goal[goal].bound);
+}
+
+double zp_goal_output(const ZpProblem *problem, size_t goal, double value) {
+  return value / zp_goal_slope(problem, goal) + problem->goal[goal].bound;
+}
+
+double zp_goal_worst(const ZpGoal *goal) {
+  return goal->sign * INFINITY;
 }
 
 double zp_violation(const ZpProblem *problem, const double *value) {

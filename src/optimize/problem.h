@@ -8,16 +8,21 @@
 #include <zipact/io.h>
 
 #include "io/range.h"
+#include "sample/statistics.h"
 
 /* The last one: number of values of all variables in all cases, which become lists of a scenario. */
 enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12, ZP_LISTED_MOST = 20000 };
 
-/* An output that is optimised or constrained. */
+/* An output that is optimised or constrained. Where keys have distributions, a number of its distribution over the
+ * samples stands for it. */
 typedef struct ZpGoal {
   char output[64];
+  ZpStatistic statistic; /* of the samples */
+  bool named;            /* the text names it: "max_load_kg.quantile_05" */
   double sign;         /* objective: 1 for min, -1 for max; constraint: 1 for <=, -1 for >= */
   double bound;        /* bound of a constraint, SI once the unit is known */
   char bound_text[64]; /* as written: "15 mm" */
+  char shown[88];      /* the output, with its statistic if there are samples */
 } ZpGoal;
 
 typedef struct ZpProblem {
@@ -43,6 +48,12 @@ double zp_variable_slope(const ZpInterval *variable, double z);
 /* The goals at a point, such that smaller is better: objectives, then constraints as the violation over the bound, at
  * most 0 if satisfied. NAN if the output does not exist. */
 double zp_goal_value(const ZpProblem *problem, size_t goal, double output);
+
+/* The output of which that is the value. */
+double zp_goal_output(const ZpProblem *problem, size_t goal, double value);
+
+/* What stands for the output of a sample that has none: the worst value. */
+double zp_goal_worst(const ZpGoal *goal);
 
 /* The derivative of a goal with respect to its output. */
 double zp_goal_slope(const ZpProblem *problem, size_t goal);

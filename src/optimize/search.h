@@ -1,6 +1,7 @@
-/* Shared by all searches: cases that are computed once, by several threads, and kept in the journal.
+/* Shared by all searches: designs that are computed once, by several threads, and kept in the journal.
  *
- * The number of a case follows from the search alone: which start and step; which generation and member. A row of the
+ * A design is one case, or where keys have distributions one for each sample: the same samples for all designs. The
+ * number of a design follows from the search alone: which start and step; which generation and member. A row of the
  * journal counts for a case if its hash agrees. So a resumed search repeats the same path without computing finished
  * cases again. */
 #ifndef ZP_OPTIMIZE_SEARCH_H
@@ -15,7 +16,7 @@
 #include "def/def.h"
 #include "optimize/problem.h"
 
-/* A finished case. */
+/* A finished design. */
 typedef struct ZpPoint {
   bool done;
   double z[ZP_VARIABLES_MOST];
@@ -29,12 +30,13 @@ typedef struct ZpSearch {
   const ZpScenario *scenario;
   const ZpCampaignOptions *options;
   ZpProblem problem;
-  ZpActuatorDef def;
+  ZpScenario *samples; /* the scenario with the variables at one value: its cases are the samples of a design */
+  ZpActuatorDef def;   /* of the first sample */
   ZpStudy study;
   ZpJournal *journal;
   uint64_t start;       /* zp_campaign_hash */
-  size_t room;          /* number of cases: problem.evaluations, and with constraints as many for zp_search_exclude */
-  uint64_t *old;        /* [room] hashes of the rows of an earlier process; 0: none */
+  size_t room;     /* number of designs: problem.evaluations, and with constraints as many for zp_search_exclude */
+  uint64_t *old;   /* [room * samples] hashes of the rows of an earlier process; 0: none */
   ZpPoint *point;       /* [room] */
   double excluded;      /* result of zp_search_exclude; NAN before */
   bool derivatives;     /* the cases have the derivatives of the study */
@@ -45,8 +47,17 @@ typedef struct ZpSearch {
   ZpError err;      /* error of the first thread that failed */
 } ZpSearch;
 
-/* Compute case `number`, below room, at position z, or take its row from the journal => the point. False if the search
- * must stop. Several threads may call this, with different numbers. */
+/* Give the search its problem and its samples. ZP_BAD_INPUT as zp_optimize. */
+ZpStatus zp_search_begin(ZpSearch *search, ZpError *err);
+
+/* Free what zp_search_begin has made. */
+void zp_search_end(ZpSearch *search);
+
+/* Samples of a design. */
+size_t zp_search_samples(const ZpSearch *search);
+
+/* Compute design `number`, below room, at position z, or take its rows from the journal => the point. False if the
+ * search must stop. Several threads may call this, with different numbers. */
 bool zp_search_evaluate(ZpSearch *search, size_t number, const double *z);
 
 /* Call `work` with 0 .. count - 1 in as many threads as there are jobs, and call options->progress meanwhile. */

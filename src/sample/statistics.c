@@ -1,53 +1,82 @@
 #include "sample/statistics.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
-const double zp_quantile_share[ZP_QUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
+const char *const zp_statistic_name[ZP_STATISTICS] = {
+    "mean", "standard_deviation", "min", "quantile_05", "quantile_25", "median", "quantile_75", "quantile_95", "max",
+};
+
+/* The shares of those that are quantiles. */
+static const double share_of[ZP_STATISTICS] = {
+    [ZP_LEAST] = 0,          [ZP_QUANTILE_05] = 0.05, [ZP_QUANTILE_25] = 0.25, [ZP_MEDIAN] = 0.5,
+    [ZP_QUANTILE_75] = 0.75, [ZP_QUANTILE_95] = 0.95, [ZP_MOST] = 1,
+};
 
 static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
+  const double x = ((const ZpSample *)a)->value, y = ((const ZpSample *)b)->value;
   return (x > y) - (x < y);
 }
 
-/* Linear between the samples in their order, the least at share 0, the largest at 1. */
-static double quantile_of(const double *sorted, size_t count, double share) {
+/* Linear between two samples; one of them alone may be infinite. */
+static ZpSample quantile_of(const ZpSample *sorted, size_t count, double share) {
   const double place = share * (double)(count - 1);
-  const size_t below = (size_t)place, above = below + 1 < count ? below + 1 : below;
-  return sorted[below] + (sorted[above] - sorted[below]) * (place - (double)below);
+  const size_t below = (size_t)place;
+  const double part = place - (double)below;
+  const ZpSample *low = &sorted[below], *high = low + (part > 0);
+  if (part == 0) return *low;
+  return (ZpSample){low->value + (high->value - low->value) * part, low->slope + (high->slope - low->slope) * part};
 }
 
-/* Mean and standard deviation, of deviations from the first value: outputs may vary by little. */
-static void moments(const double *value, ZpStatistics *s) {
-  double sum = 0, squares = 0;
-  for (size_t i = 0; i < s->count; i++)
-    sum += value[i] - value[0];
-  const double shift = sum / (double)s->count;
-  s->mean = value[0] + shift;
-  for (size_t i = 0; i < s->count; i++)
-    squares += (value[i] - value[0] - shift) * (value[i] - value[0] - shift);
-  s->deviation = s->count > 1 ? sqrt(squares / (double)(s->count - 1)) : (double)NAN;
+/* From the first value: outputs may vary by little. */
+static ZpSample mean_of(const ZpSample *sample, size_t count) {
+  ZpSample sum = {0, 0};
+  for (size_t i = 0; i < count; i++) {
+    sum.value += sample[i].value - sample[0].value;
+    sum.slope += sample[i].slope;
+  }
+  return (ZpSample){sample[0].value + sum.value / (double)count, sum.slope / (double)count};
 }
 
-ZpStatistics zp_statistics(const ZpDesign *design, const double *value, double *work) {
-  const size_t samples = zp_design_samples(design), blocks = zp_design_blocks(design);
-  ZpStatistics s = {.mean = NAN, .deviation = NAN, .least = NAN, .most = NAN};
+static ZpSample deviation_of(const ZpSample *sample, size_t count) {
+  const double mean = mean_of(sample, count).value;
+  double squares = 0, products = 0;
+  for (size_t i = 0; i < count; i++) {
+    squares += (sample[i].value - mean) * (sample[i].value - mean);
+    products += (sample[i].value - mean) * sample[i].slope;
+  }
+  const double deviation = count > 1 ? sqrt(squares / (double)(count - 1)) : (double)NAN;
+  return (ZpSample){deviation, products / ((double)(count - 1) * deviation)};
+}
+
+static ZpSample of_sorted(ZpStatistic which, const ZpSample *sorted, size_t count) {
+  if (which == ZP_MEAN) return mean_of(sorted, count);
+  if (which == ZP_STANDARD_DEVIATION) return deviation_of(sorted, count);
+  return quantile_of(sorted, count, share_of[which]);
+}
+
+ZpSample zp_statistic(ZpStatistic which, ZpSample *sample, size_t count) {
+  qsort(sample, count, sizeof *sample, compare);
+  return of_sorted(which, sample, count);
+}
+
+bool zp_design_is_drawn(const ZpDesign *design, size_t sample) {
+  return sample % zp_design_blocks(design) <= ZP_BLOCK_B;
+}
+
+ZpStatistics zp_statistics(const ZpDesign *design, const double *value, ZpSample *work) {
+  const size_t samples = zp_design_samples(design);
+  ZpStatistics s = {0};
   for (size_t i = 0; i < samples; i++) {
-    if (i % blocks > ZP_BLOCK_B) continue;
+    if (!zp_design_is_drawn(design, i)) continue;
     if (isfinite(value[i]))
-      work[s.count++] = value[i];
+      work[s.count++] = (ZpSample){.value = value[i]};
     else
       s.missing++;
   }
-  if (s.count > 0) {
-    qsort(work, s.count, sizeof *work, compare);
-    moments(work, &s);
-    s.least = work[0];
-    s.most = work[s.count - 1];
-  }
-  for (int k = 0; k < ZP_QUANTILES; k++)
-    s.quantile[k] = s.count > 0 ? quantile_of(work, s.count, zp_quantile_share[k]) : (double)NAN;
+  qsort(work, s.count, sizeof *work, compare);
+  for (int k = 0; k < ZP_STATISTICS; k++)
+    s.number[k] = s.count > 0 ? of_sorted((ZpStatistic)k, work, s.count).value : (double)NAN;
   return s;
 }
 
