@@ -96,6 +96,61 @@ TEST(keys_in_a_valley_are_found) {
   ck_assert_double_ge(zp_result_get(result, "medium.permittivity_interval_95_high"), 2.6);
 }
 
+/* A fit of two keys to three rows, without files, and a point of it. */
+typedef struct Plain {
+  ZpFitSet set;
+  double y[3], fitted[3], J[6];
+  ZpFit fit;
+  ZpFitPoint at;
+} Plain;
+
+static void make_plain(Plain *p, double lower) {
+  *p = (Plain){.set = {.rows = 3}};
+  p->fit = (ZpFit){.n = 2, .keys = 2, .rows = 3, .sets = 1, .set = &p->set, .y = p->y, .horizon = 1};
+  for (int k = 0; k < 2; k++)
+    p->fit.lower[k] = lower, p->fit.upper[k] = 5;
+  p->at = (ZpFitPoint){.z = {1, 1}, .fitted = p->fitted, .J = p->J, .good = true};
+}
+
+/* 2 s0 + s1, s0 - s1 and s1 are to be 3, 1 and 0.2. Without a box s0 = 1.34 and s1 = 0.29; where s0 is at its edge, the
+ * others are best at s1 = (2.2 - s0) / 3. */
+TEST(step_stays_in_its_box) {
+  static const double J[] = {2, 1, 1, -1, 0, 1}, y[] = {3, 1, 0.2}, edge[] = {0.7, 0.3};
+  for (int k = 0; k < 2; k++) {
+    Plain p;
+    double to[ZP_FIT_MOST], falls, left = 0;
+    make_plain(&p, -9);
+    if (k == 1) p.fit.upper[0] = 1.3;
+    memcpy(p.J, J, sizeof J);
+    memcpy(p.y, y, sizeof y);
+    ck_assert(zp_fit_step(&p.fit, &p.at, NULL, to, &falls));
+    ck_near(to[0], 1 + edge[k], 1e-15);
+    ck_near(to[1], 1 + (2.2 - edge[k]) / 3, 1e-15);
+    for (int i = 0; i < 3; i++)
+      left += pow(y[i] - J[2 * i] * edge[k] - J[2 * i + 1] * (2.2 - edge[k]) / 3, 2);
+    ck_near(falls, 9 + 1 + 0.04 - left, 1e-15);
+  }
+}
+
+/* Of powers of two keys one step finds both. */
+TEST(steps_follow_powers) {
+  static const double power[] = {1, 3, -0.5, 1, 2, 0}, z[] = {0.8, 1.3}, true_z[] = {1.5, 1.2};
+  Plain p;
+  double to[ZP_FIT_MOST], falls;
+  make_plain(&p, 0.2);
+  for (int k = 0; k < 2; k++)
+    p.at.z[k] = z[k];
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 2; k++) {
+      p.fitted[i] += power[2 * i + k] * log(z[k]);
+      p.y[i] += power[2 * i + k] * log(true_z[k]);
+      p.J[2 * i + k] = power[2 * i + k] / z[k];
+    }
+  ck_assert(zp_fit_step(&p.fit, &p.at, NULL, to, &falls));
+  ck_near(to[0], 1.5, 1e-14);
+  ck_near(to[1], 1.2, 1e-14);
+}
+
 /* The steps of differences are independent of each other, two standard errors each, (12.14). */
 TEST(ways_are_independent) {
   ZpActuatorDef def = in_a_valley(5e-8);

@@ -185,6 +185,12 @@ void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point);
 /* Likewise without derivatives: its J stays. */
 void zp_fit_find_values(ZpFit *fit, ZpFitPoint *point);
 
+/* The way of parameter k to a value, and where a way ends, within the bounds. Positive keys trade against each other by
+ * powers, so the model is nearly linear in their logarithms: their way is that of the logarithm times the key, so that
+ * derivatives at the point are those by the key. */
+double zp_fit_way(const ZpFit *fit, int k, double from, double to);
+double zp_fit_end(const ZpFit *fit, int k, double from, double way);
+
 /* The minimum of the linear model at a point, within the bounds => to [n], and by how much the squares fall until
  * there. `held` as below. False if it is not determined. */
 bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double *to, double *falls);

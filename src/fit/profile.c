@@ -19,11 +19,6 @@ typedef struct Profile {
   ZpFitProfiles *points;
 } Profile;
 
-static void put(const ZpFit *fit, const double *step, double *z) {
-  for (int k = 0; k < fit->n; k++)
-    z[k] = fmin(fmax(z[k] + step[k], fit->lower[k]), fit->upper[k]);
-}
-
 /* Fit the others again with the derivatives of the best point => whether that sufficed. */
 static bool correct(Profile *p, const bool *held) {
   enum { MOST = 3 };
@@ -53,11 +48,9 @@ static void record(Profile *p, int which, double rise) {
 
 /* From some values of all parameters along the valley of one, to its value z. */
 static void shift(Profile *p, const double *from, int which, double z) {
-  double step[ZP_FIT_MOST];
+  const double way = zp_fit_way(p->fit, which, from[which], z);
   for (int k = 0; k < p->fit->n; k++)
-    step[k] = p->C[k][which] / p->C[which][which] * (z - from[which]);
-  memcpy(p->at.z, from, sizeof p->at.z);
-  put(p->fit, step, p->at.z);
+    p->at.z[k] = zp_fit_end(p->fit, k, from[k], p->C[k][which] / p->C[which][which] * way);
   p->at.z[which] = z;
   zp_fit_find_values(p->fit, &p->at);
 }
@@ -102,7 +95,7 @@ static double rise_at(Profile *p, int which, double z) {
     zp_fit_descend(p->fit, held, MOST, &p->at);
   }
   const double rise = p->at.square - p->best->square;
-  p->better |= p->at.good && rise < -fmax(0.01 * p->rise, 2 * p->fit->scatter);
+  p->better |= p->at.good && rise < -fmax(0.05 * p->rise, 2 * p->fit->scatter);
   record(p, which, rise);
   return rise;
 }
@@ -119,28 +112,49 @@ static const ZpFitProfilePoint *farthest_within(const Profile *p, int which, dou
   return farthest;
 }
 
+/* The search for the end of an interval: the farthest distance from the best point that is known to lie within it, and
+ * the nearest that does not, with the roots of the shares of the rise there, which grow nearly linearly. */
+typedef struct Bracket {
+  double low, high, root_low, root_high;
+  int turned; /* points of the same side in a row */
+} Bracket;
+
+static void take_share(Bracket *b, double s, double share) {
+  const bool within = share < 1;
+  b->turned = within == (b->turned > 0) ? b->turned + (within ? 1 : -1) : within ? 1 : -1;
+  if (within)
+    b->low = s, b->root_low = sqrt(fmax(share, 0));
+  else
+    b->high = s, b->root_high = sqrt(share);
+}
+
+/* The next distance: by the roots, or halfway where these mislead, as on a bent valley. */
+static double next_of(const Bracket *b) {
+  static const double lost = 4; /* a root beyond which a fit of the others has failed rather than told a rise */
+  if (!isfinite(b->high)) return b->low * fmin(fmax(1 / fmax(b->root_low, 0.1), 1.2), 3);
+  const double part = (1 - b->root_low) / (b->root_high - b->root_low);
+  const bool halves = b->root_high > lost || b->turned > 1 || b->turned < -1;
+  return b->low + (b->high - b->low) * (halves ? 0.5 : fmin(fmax(part, 0.05), 0.95));
+}
+
 /* The end of an interval on one side; NAN: the bounds come first. */
 static double end_at(Profile *p, int which, double side) {
   enum { MOST = 10 };
-  const double near = fmax(0.03, fmin(p->fit->scatter / p->rise, 0.3));
+  const double near = fmax(0.06, fmin(p->fit->scatter / p->rise, 0.3));
   const double from = p->best->z[which], bound = side > 0 ? p->fit->upper[which] : p->fit->lower[which];
   const double most = fabs(bound - from);
   const ZpFitProfilePoint *known = farthest_within(p, which, side);
   const double within = known ? fabs(known->z[which] - from) : 0;
-  double low = within, high = INFINITY, root_low = known ? sqrt(fmax(known->rise, 0) / p->rise) : 0, root_high = 0;
+  Bracket b = {.low = within, .high = INFINITY, .root_low = known ? sqrt(fmax(known->rise, 0) / p->rise) : 0};
   double s = fmax(sqrt(p->rise * p->C[which][which]), 1.1 * within);
   for (int k = 0; k < MOST && !p->better && !p->fit->stopped && p->fit->status == ZP_OK; k++) {
     s = fmin(s, most);
-    const double share = rise_at(p, which, from + side * s) / p->rise, root = sqrt(fmax(share, 0));
-    if (fabs(share - 1) < near) return from + side * fmax(fmin(s / root, most), within);
+    const double share = rise_at(p, which, from + side * s) / p->rise;
+    if (fabs(share - 1) < near) return from + side * fmax(fmin(s / sqrt(share), most), within);
     if (share < 1 && s >= most) return NAN;
-    if (share < 1)
-      low = s, root_low = root;
-    else
-      high = s, root_high = root;
-    if (high - low < 0.01 * s) return from + side * s;
-    s = isfinite(high) ? low + (high - low) * fmin(fmax((1 - root_low) / (root_high - root_low), 0.05), 0.95)
-                       : s * fmin(fmax(1 / fmax(root, 0.1), 1.2), 3);
+    take_share(&b, s, share);
+    if (b.high - b.low < 0.01 * s) return from + side * s;
+    s = next_of(&b);
   }
   p->gave_up = true;
   return NAN;
@@ -171,13 +185,27 @@ static void widen(Profile *p, int which, ZpFitInterval *interval) {
   if ((low && interval->low > low->z[which]) || (high && interval->high < high->z[which])) find_one(p, which, interval);
 }
 
-/* False: a better point was found. */
+/* The first n parameters, those that the data know least first, by their standard errors over their sizes. */
+static void sort_by_looseness(const Profile *p, int n, int *order) {
+  double error[ZP_FIT_MOST];
+  for (int k = 0; k < n; k++) {
+    int place = k;
+    error[k] = sqrt(p->C[k][k]) / (k < p->fit->keys ? zp_fit_size(p->best->z[k]) : fmax(fabs(p->best->z[k]), 1));
+    for (; place > 0 && error[order[place - 1]] < error[k]; place--)
+      order[place] = order[place - 1];
+    order[place] = k;
+  }
+}
+
+/* False: a better point was found. The loosest goes first: its valley leads farthest, and shows a better point soonest. */
 static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
   if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
+  int order[ZP_FIT_MOST];
+  sort_by_looseness(p, p->fit->n, order);
   for (int k = 0; k < p->fit->n && !p->better; k++)
-    find_one(p, k, &interval[k]);
+    find_one(p, order[k], &interval[order[k]]);
   for (int k = 0; k < p->fit->n && !p->better; k++)
     widen(p, k, &interval[k]);
   return !p->better;
@@ -211,34 +239,30 @@ static void look_beyond(Profile *p, int which, double variance, double side) {
   }
 }
 
-/* The key that the data know least. */
-static int loosest_of(const Profile *p) {
-  int loosest = 0;
-  for (int k = 1; k < p->fit->keys; k++)
-    if (sqrt(p->C[k][k]) / zp_fit_size(p->best->z[k]) > sqrt(p->C[loosest][loosest]) / zp_fit_size(p->best->z[loosest]))
-      loosest = k;
-  return loosest;
-}
-
 /* Is there no better minimum along the valley? A search, for which derivatives may be rough. */
 static bool is_lowest(Profile *p, double variance) {
   ZpFit *fit = p->fit;
   const double enough = fit->enough, rough = fit->rough;
   if (fit->runs == 0 || fit->keys == 0 || !zp_fit_covariance(fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
   fit->slopes = ZP_FIT_ONE_SIDED, fit->enough = 0.3, fit->rough = 10;
-  const int loosest = loosest_of(p);
+  int order[ZP_FIT_MOST];
+  sort_by_looseness(p, p->fit->keys, order);
+  const int loosest = order[0];
   look_beyond(p, loosest, variance, -1);
   if (!p->better) look_beyond(p, loosest, variance, 1);
   fit->slopes = ZP_FIT_CENTRAL, fit->enough = enough, fit->rough = rough;
   return !p->better;
 }
 
-static void go_to_better(Profile *p) {
+/* => by how much the squares fall. */
+static double go_to_better(Profile *p) {
   enum { MOST = 60 };
+  const double before = p->best->square;
   memcpy(p->best->z, p->at.z, sizeof p->best->z);
   zp_fit_go_to(p->fit, p->best);
   p->best->ended = zp_fit_descend(p->fit, NULL, MOST, p->best);
   p->better = false;
+  return before - p->best->square;
 }
 
 double zp_fit_level(const ZpFit *fit) {
@@ -252,11 +276,11 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
   Profile p = {.fit = fit, .best = best, .rise = zp_fit_level(fit) * variance, .points = points};
   points->count = 0;
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
-  bool whole = false;
+  bool whole = false, is_new = true;
   for (int k = 0; k < MOST && !whole; k++) {
     points->count = 0;
-    whole = is_lowest(&p, variance) && find_all(&p, interval);
-    if (!whole) go_to_better(&p);
+    whole = (!is_new || is_lowest(&p, variance)) && find_all(&p, interval);
+    if (!whole) is_new = go_to_better(&p) > variance;
   }
   for (int k = 0; k < fit->n && !whole; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, true};

@@ -53,52 +53,107 @@ static Normal normal_of(const ZpFit *fit, const ZpFitPoint *at, const bool *held
   return normal;
 }
 
-/* Solve (H + damping diag H) step = g. False if H is singular. */
-static bool damped_step(const ZpFit *fit, const Normal *normal, double damping, double *step) {
-  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}};
-  const int n = fit->n;
-  for (int a = 0; a < n; a++) {
-    for (int b = 0; b <= a; b++) {
-      const bool both = normal->free[a] && normal->free[b];
-      L[a][b] = both ? normal->H[a][b] * (a == b ? 1 + damping : 1) : a == b;
-    }
-    step[a] = normal->free[a] ? normal->g[a] : 0;
-  }
-  if (!zp_cholesky_factor(n, 0, L)) return false;
-  zp_cholesky_solve(n, L, step);
-  return true;
-}
-
 /* Size of a parameter with which its changes are compared. */
 static double size_of(const ZpFit *fit, int k, double z) {
   return k < fit->keys ? zp_fit_size(z) : fmax(fabs(z), 1);
 }
 
-/* A step within the bounds => how far it goes, in multiples of the parameters' sizes, and by how much the squares fall
- * if the model is linear. Positive keys change by a factor, since they trade against each other by powers. */
-static double go(const ZpFit *fit, const Normal *normal, const double *from, const double *step, double *to,
-                 double *falls) {
-  double moved = 0, d[ZP_FIT_MOST];
-  *falls = 0;
+double zp_fit_way(const ZpFit *fit, int k, double from, double to) {
+  return fit->lower[k] > 0 ? from * log(to / from) : to - from;
+}
+
+double zp_fit_end(const ZpFit *fit, int k, double from, double way) {
+  const double end = fit->lower[k] > 0 ? from * exp(way / from) : from + way;
+  return fmin(fmax(end, fit->lower[k]), fit->upper[k]);
+}
+
+/* Where a step may go: within the bounds, and not so far that the model means nothing. */
+typedef struct Box {
+  double low[ZP_FIT_MOST], high[ZP_FIT_MOST];
+} Box;
+
+static Box box_of(const ZpFit *fit, const double *z) {
+  static const double farthest = 0.7; /* times a key's size: a factor of 2 */
+  Box box = {{0}, {0}};
   for (int k = 0; k < fit->n; k++) {
-    const double end = fit->lower[k] > 0 ? from[k] * exp(step[k] / from[k]) : from[k] + step[k];
-    to[k] = fmin(fmax(end, fit->lower[k]), fit->upper[k]);
-    d[k] = to[k] - from[k];
-    moved = fmax(moved, fabs(d[k]) / size_of(fit, k, from[k]));
-    *falls += 2 * normal->g[k] * d[k];
+    const double most = k < fit->keys ? farthest * zp_fit_size(z[k]) : INFINITY;
+    box.low[k] = fmax(zp_fit_way(fit, k, z[k], fit->lower[k]), -most);
+    box.high[k] = fmin(zp_fit_way(fit, k, z[k], fit->upper[k]), most);
   }
-  for (int a = 0; a < fit->n; a++)
+  return box;
+}
+
+/* The parameter whose step leaves the box farthest, by its size; -1: none does. */
+static int farthest_out(const ZpFit *fit, const double *z, const Box *box, const double *step) {
+  int found = -1;
+  double most = 0;
+  for (int k = 0; k < fit->n; k++) {
+    const double out = fmax(step[k] - box->high[k], box->low[k] - step[k]) / size_of(fit, k, z[k]);
+    if (out > most) most = out, found = k;
+  }
+  return found;
+}
+
+/* Solve (H + damping diag H) step = g for the free parameters; the others have their steps. False if H is singular. */
+static bool solve_free(const ZpFit *fit, const Normal *normal, const bool *free, double damping, double *step) {
+  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, right[ZP_FIT_MOST];
+  const int n = fit->n;
+  for (int a = 0; a < n; a++) {
+    right[a] = free[a] ? normal->g[a] : step[a];
+    for (int b = 0; b < n; b++) {
+      if (b <= a) L[a][b] = free[a] && free[b] ? normal->H[a][b] * (a == b ? 1 + damping : 1) : a == b;
+      if (free[a] && !free[b]) right[a] -= normal->H[a][b] * step[b];
+    }
+  }
+  if (!zp_cholesky_factor(n, 0, L)) return false;
+  zp_cholesky_solve(n, L, right);
+  memcpy(step, right, (size_t)n * sizeof *step);
+  return true;
+}
+
+/* The damped step within the box: what would leave it goes to its edge, and the others follow. */
+static bool damped_step(const ZpFit *fit, const Normal *normal, const double *z, double damping, double *step) {
+  const Box box = box_of(fit, z);
+  bool free[ZP_FIT_MOST];
+  memcpy(free, normal->free, sizeof free);
+  for (int k = 0; k < fit->n; k++)
+    step[k] = 0;
+  for (int out = 0; out >= 0;) {
+    if (!solve_free(fit, normal, free, damping, step)) return false;
+    out = farthest_out(fit, z, &box, step);
+    if (out >= 0) step[out] = fmin(fmax(step[out], box.low[out]), box.high[out]), free[out] = false;
+  }
+  return true;
+}
+
+/* By how much the squares fall over a step if the model is linear. */
+static double fall_over(const ZpFit *fit, const Normal *normal, const double *step) {
+  double falls = 0;
+  for (int a = 0; a < fit->n; a++) {
+    falls += 2 * normal->g[a] * step[a];
     for (int b = 0; b < fit->n; b++)
-      *falls -= d[a] * normal->H[a][b] * d[b];
+      falls -= step[a] * normal->H[a][b] * step[b];
+  }
+  return falls;
+}
+
+/* Take a step => how far it goes, in multiples of the parameters' sizes. */
+static double go(const ZpFit *fit, const double *from, const double *step, double *to) {
+  double moved = 0;
+  for (int k = 0; k < fit->n; k++) {
+    to[k] = zp_fit_end(fit, k, from[k], step[k]);
+    moved = fmax(moved, fabs(to[k] - from[k]) / size_of(fit, k, from[k]));
+  }
   return moved;
 }
 
 bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double *to, double *falls) {
   const Normal normal = normal_of(fit, at, held);
   double step[ZP_FIT_MOST];
-  const bool found = damped_step(fit, &normal, 0, step);
-  if (found) go(fit, &normal, at->z, step, to, falls);
-  return found;
+  if (!damped_step(fit, &normal, at->z, 0, step)) return false;
+  go(fit, at->z, step, to);
+  *falls = fall_over(fit, &normal, step);
+  return true;
 }
 
 /* Both have arrays of their own, J behind the fitted values. */
@@ -192,22 +247,25 @@ static void relax(Descent *d, double ratio) {
   d->growth = 2;
 }
 
-/* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden). */
+/* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden), and be
+ * those by the keys there. */
 static void learn(const ZpFit *fit, Descent *d) {
-  double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, squares = 0;
+  double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, scale[ZP_FIT_MOST], squares = 0;
   for (int k = 0; k < fit->n; k++) {
-    const double size = size_of(fit, k, d->point->z[k]);
-    step[k] = d->trial.z[k] - d->point->z[k];
+    const double from = d->point->z[k], to = d->trial.z[k], size = size_of(fit, k, from);
+    step[k] = zp_fit_way(fit, k, from, to);
     along[k] = step[k] / (size * size);
     squares += step[k] * along[k];
+    scale[k] = fit->lower[k] > 0 ? from / to : 1;
   }
   for (size_t i = 0; i < fit->rows; i++) {
     double *row = d->point->J + i * (size_t)fit->n;
     double off = zp_fit_residual(fit, d->trial.fitted, i) - zp_fit_residual(fit, d->point->fitted, i);
     for (int k = 0; k < fit->n; k++)
       off -= row[k] * step[k];
-    for (int k = 0; k < fit->n && isfinite(off); k++)
-      row[k] += off * along[k] / squares;
+    if (!isfinite(off)) off = 0;
+    for (int k = 0; k < fit->n; k++)
+      row[k] = (row[k] + off * along[k] / squares) * scale[k];
   }
 }
 
@@ -234,22 +292,28 @@ static bool take(ZpFit *fit, Descent *d, double falls) {
   return better || renews;
 }
 
-/* One step => whether the point is the minimum. */
+/* Is the point the minimum, as far as the model says? Damped steps do not tell: along a valley they are short. */
+static bool is_lowest(const ZpFit *fit, const Normal *normal, const ZpFitPoint *point) {
+  static const double near = 1e-9, flat = 1e-9;
+  double step[ZP_FIT_MOST], to[ZP_FIT_MOST];
+  if (!damped_step(fit, normal, point->z, 0, step)) return false;
+  const double falls = fall_over(fit, normal, step), least = fit->enough * point->square / (double)fit->rows;
+  return go(fit, point->z, step, to) < near || falls < fmax(flat * flat * point->square, least);
+}
+
+/* One step => whether the search ends. */
 static bool descend(ZpFit *fit, const bool *held, Descent *d) {
   static const double near = 1e-9, flat = 1e-9;
   const double variance = d->point->square / (double)fit->rows;
   const Normal normal = normal_of(fit, d->point, held);
-  double step[ZP_FIT_MOST], falls, before = d->point->square;
-  if (!damped_step(fit, &normal, d->damping, step)) {
+  double step[ZP_FIT_MOST], before = d->point->square;
+  if (is_lowest(fit, &normal, d->point)) return true;
+  if (!damped_step(fit, &normal, d->point->z, d->damping, step)) {
     damp(d);
     return false;
   }
-  const double moved = go(fit, &normal, d->point->z, step, d->trial.z, &falls);
-  if (moved < near || (falls >= 0 && falls < fmax(flat * flat * before, fit->enough * variance))) return true;
-  if (falls < 0) { /* it is so long that a factor is far from linear */
-    damp(d);
-    return false;
-  }
+  const double moved = go(fit, d->point->z, step, d->trial.z), falls = fall_over(fit, &normal, step);
+  if (moved < near) return true;
   if (d->keeps)
     zp_fit_find_values(fit, &d->trial);
   else

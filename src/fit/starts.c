@@ -20,9 +20,8 @@ static void start_at(const ZpFit *fit, int which, double *z) {
   }
 }
 
-/* Do two points differ by more than the fit leaves open? By the values of the model there. */
-static bool differ(const ZpFit *fit, const double *a, const double *b) {
-  static const double apart = 1e-3;
+/* Do two points differ in a key by more than a part of it? */
+static bool differ(const ZpFit *fit, const double *a, const double *b, double apart) {
   for (int k = 0; k < fit->keys; k++)
     if (fabs(a[k] - b[k]) > apart * fmax(fabs(a[k]), fabs(b[k]))) return true;
   return false;
@@ -193,27 +192,61 @@ static void refine(ZpFit *fit, ZpFitPoint *best) {
   best->ended = zp_fit_descend(fit, NULL, MOST, best);
 }
 
-/* Follow the minima over the closing, then those of further starts, until the residuals of a record are noise => how
- * many. Where nothing moves, there is nothing to follow. */
+/* Is a minimum over the closing as good as the best one, and far from those that were followed? */
+static bool is_rival(const ZpFit *fit, const Start *closing, int followed, int which) {
+  static const double little = 4, far = 0.1; /* times the mean square; of a key */
+  const double best = closing[0].square;
+  if (!closing[which].good || closing[which].square > best * (1 + little / (double)fit->rows)) return false;
+  for (int k = 0; k < followed; k++)
+    if (!differ(fit, closing[k].z, closing[which].z, far)) return false;
+  return true;
+}
+
+/* The next one to follow takes place `followed` => whether there is one. After residuals that are noise only rivals are
+ * followed, without them all starts. */
+static bool choose_next(const ZpFit *fit, Start *start, Start *closing, int followed, int minima, int count,
+                        bool clean) {
+  int next = followed;
+  while (clean && next < minima && !is_rival(fit, closing, followed, next))
+    next++;
+  if (next >= (clean ? minima : count)) return false;
+  const Start one = start[next], other = closing[next];
+  start[next] = start[followed], closing[next] = closing[followed];
+  start[followed] = one, closing[followed] = other;
+  return true;
+}
+
+/* Follow the minima over the closing, then those of further starts, until the residuals of a record are noise, and all
+ * rivals of that one => how many. Where nothing moves, there is nothing to follow. */
 static int follow_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
   enum { MOST = 4 };
   const int minima = descend_closing(fit, start, count, point);
-  int tried = 0;
   if (fit->runs == 0) return minima;
-  for (bool clean = false; tried < count && tried < MOST && !clean && zp_fit_goes_on(fit); tried++) {
-    fit->tolerance = searching;
-    if (tried >= minima) descend_from(fit, 0, &start[tried], point);
-    clean = follow_motion(fit, &start[tried], point);
+  Start *closing = calloc((size_t)count, sizeof *closing);
+  int followed = 0;
+  bool clean = false;
+  if (!closing) {
+    fit->status = zp_fail_memory(fit->err);
+    return 0;
   }
-  return tried;
+  memcpy(closing, start, (size_t)count * sizeof *closing);
+  while (followed < MOST && zp_fit_goes_on(fit) &&
+         choose_next(fit, start, closing, followed, minima, count, clean)) {
+    fit->tolerance = searching;
+    if (followed >= minima) descend_from(fit, 0, &start[followed], point);
+    clean |= follow_motion(fit, &start[followed++], point);
+  }
+  free(closing);
+  return followed;
 }
 
 /* The best of the minima, and the best other one. */
 static void compare(const ZpFit *fit, Start *start, ZpFitStarts *starts) {
+  static const double apart = 1e-3;
   if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
   starts->best = start->square;
   for (int k = 1; k < starts->tried; k++) {
-    if (!differ(fit, start[k].z, start->z) || !start[k].good || !start[k].ended || start[k].square >= starts->next)
+    if (!differ(fit, start[k].z, start->z, apart) || !start[k].good || !start[k].ended || start[k].square >= starts->next)
       continue;
     starts->next = start[k].square;
     memcpy(starts->other, start[k].z, sizeof starts->other);
