@@ -7,7 +7,7 @@
 #picture distribution.svg many limits max_load_kg :samples
 #picture distribution.svg many cycle opening_max_m|opening_min_m|stroke_max_m|stroke_min_m :samples
 # How large a share of the samples of a campaign lies below a value: a curve for each combination of the lists' values and
-# each answer of the study, eight at most. Curve k is the column scalar[k] of the table in the `samples` rows from start[k]
+# each answer of the study, eight at most; of an optimisation for its best designs. Curve k is the column scalar[k] of the table in the `samples` rows from start[k]
 # on, of which found[k] have a value and are independent.
 load 'answers.gp'
 title = 'Distribution over the samples'
@@ -15,9 +15,11 @@ remark = sprintf('%d samples per curve; those without a value are left out', sam
 alone(i) = int(i) % blocks < independent
 set datafile separator ','
 set datafile columnheaders
+optimised = exists('objectives')
 chosen = ''
 counts = ''
-do for [c=0:cases/samples - 1] {
+do for [i=1:optimised ? |front| : cases/samples] {
+  c = optimised ? int(front[i])/samples : i - 1
   do for [j=1:2] {
     if (number[j] ne '' && words(chosen) < 16) {
       n = 0

@@ -56,16 +56,17 @@ set bmargin at screen bottom - 0.05
 set tmargin at screen 0.65
 set colorbox user origin 0.845, bottom - 0.05 size 0.025, 0.65 - bottom
 set cblabel name(colour_axis) offset 0.5
-set key at screen 0.97, 0.955 right top noreverse Right
+set key at screen 0.97, 0.03 right bottom noreverse Right
 set datafile separator ','
 set datafile columnheaders
 at_axis(k) = (column(word(shown, k)) - axis_low[k])/(axis_high[k] - axis_low[k])
 _whole(n) = n == 0 ? 0 : _whole(n - 1) + 0*column(word(shown, n)) # NaN where a value is missing
-_best(i) = optimised ? (sum [k=1:|front|] (front[k] == i)) > 0 : 0
+_design(i) = exists('samples') ? i/samples*samples : i
+_best(i) = optimised ? (sum [k=1:|front|] (front[k] == _design(i))) > 0 : 0
 shade_at(c) = column(word(shown, colour_axis))*factor(colour_axis)
 step = (cases + 399)/400
 several = optimised ? words(objectives) > 1 : 0
 plot for [k=1:axis_count - 1] '../table.csv' every step using (k - 1 + _whole(axis_count)):(at_axis(k)):(1):(at_axis(k + 1) - at_axis(k)):(shade_at(0)) \
        with vectors nohead lw 0.8 lc palette notitle, \
      for [k=1:(optimised ? axis_count - 1 : 0)] '../table.csv' using (_best(int(column(0))) ? k - 1 + _whole(axis_count) : NaN):(at_axis(k)):(1):(at_axis(k + 1) - at_axis(k)) \
-       with vectors nohead lw (several ? 1.5 : 3) lc rgb '#000000' title (k == 1 ? (several ? 'front' : 'best') : '')
+       with vectors nohead lw (exists('samples') ? 0.8 : several ? 1.5 : 3) lc rgb '#000000' title (k == 1 ? (several ? 'front' : 'best') : '')

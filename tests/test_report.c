@@ -672,8 +672,14 @@ TEST(maps_have_one_scale) {
 TEST(lines_of_cases_and_of_the_front) {
   static const size_t best[] = {5, 2};
   static const char *const objective[] = {"stroke_m", "other_m"};
-  const ZpOptimum optimum = {
-      .row = best, .count = 2, .feasible = true, .excluded = NAN, .goal = objective, .goals = 2, .objectives = 2, .samples = 1};
+  const ZpOptimum optimum = {.row = best,
+                             .count = 2,
+                             .feasible = true,
+                             .excluded = NAN,
+                             .goal = objective,
+                             .goals = 2,
+                             .objectives = 2,
+                             .samples = 1};
   ZpScenario *scenario = scenario_of("ribbon.thickness=[40 um, 60 um, 80 um]");
   ZpResult *result[6];
   ck_assert_int_eq(zp_scenario_set(scenario, "study=stationary", NULL), ZP_OK);

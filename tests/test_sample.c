@@ -332,7 +332,8 @@ TEST(statistics_in_closed_form) {
   for (size_t i = 0; i < 104; i++)
     value[i] = NAN;
   const ZpStatistics none = zp_statistics(&design, value, work);
-  ck_assert(none.count == 0 && none.missing == 104 && isnan(none.number[ZP_MEAN]) && isnan(none.number[ZP_QUANTILE_95]));
+  ck_assert(none.count == 0 && none.missing == 104 && isnan(none.number[ZP_MEAN]) &&
+            isnan(none.number[ZP_QUANTILE_95]));
 }
 
 /* The numbers of samples x_i + a y_i follow a with their slopes y_i; what rests on a value that is infinite is not
@@ -353,7 +354,8 @@ TEST(slopes_of_statistics) {
   }
   ZpSample missing[COUNT] = {{.value = INFINITY}};
   ck_assert_double_eq(zp_statistic(ZP_QUANTILE_95, missing, COUNT).value, 0);
-  ck_assert(isinf(zp_statistic(ZP_MOST, missing, COUNT).value) && !isfinite(zp_statistic(ZP_MEAN, missing, COUNT).value));
+  ck_assert(isinf(zp_statistic(ZP_MOST, missing, COUNT).value) &&
+            !isfinite(zp_statistic(ZP_MEAN, missing, COUNT).value));
 }
 
 /* Ishigami and Homma's function, whose variance and indices are known. */

@@ -143,7 +143,7 @@ typedef struct ZpOptimum {
   double excluded;   /* share of the box that contains no feasible design, according to the cases; NAN: not examined */
   ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED */
   char message[256]; /* one sentence about the result */
-  const int *variable;          /* [variables] the keys that were searched */
+  const int *variable; /* [variables] the keys that were searched */
   size_t variables;
   const char *const *goal; /* [goals] names of outputs, first those of the objectives, then of the constraints; of a
                             * design with samples "output.statistic" */

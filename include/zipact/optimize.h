@@ -17,7 +17,8 @@ typedef struct ZpOptimization ZpOptimization;
  * (zp_folder_open), makes the search resumable like a campaign; options->progress may stop it: then the result is the
  * best case so far. The same scenario gives the same cases for any number of threads. Lists are allowed only for keys
  * of optimize.variables, whose values in the scenario are ignored. Where keys have distributions, a design has a case
- * for each sample, the same samples for all designs, and goals are numbers of the distribution of an output. `scenario` and `options` must outlive *out.
+ * for each sample, the same samples for all designs, and goals are numbers of the distribution of an output. `scenario`
+ * and `options` must outlive *out.
  *
  * ZP_BAD_INPUT names the key and the part of its text; ZP_MACHINE as zp_campaign_run. *out is NULL on failure. */
 ZP_API ZpStatus zp_optimize(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,

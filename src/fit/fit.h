@@ -199,6 +199,12 @@ bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, doubl
  * `held` [n]: parameters that stay; NULL: none. => whether the minimum was reached. */
 bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point);
 
+/* Likewise, of a record with derivatives that stay while they serve; `kept`: they are those of a point nearby. */
+bool zp_fit_descend_kept(ZpFit *fit, const bool *held, int most, bool kept, ZpFitPoint *point);
+
+/* Derivatives J by the parameters at one point, as they are at another if the model is linear in the ways between. */
+void zp_fit_carry_slopes(const ZpFit *fit, const double *from, const double *to, double *J);
+
 /* Minima to which several starts have led. */
 typedef struct ZpFitStarts {
   int tried;                 /* how many starts were followed to the end */

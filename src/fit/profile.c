@@ -13,29 +13,61 @@ typedef struct Profile {
   ZpFitPoint *best;
   double rise; /* of the sum of squares at the ends of intervals */
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
-  ZpFitPoint at; /* the point of the profile, with arrays of its own */
-  bool better;   /* it fits better than the best point */
-  bool gave_up;  /* the last search for an end did not come to it */
+  ZpFitPoint at; /* the point of the profile, with arrays of its own. Its derivatives are those of an earlier one, */
+  double slopes_at[ZP_FIT_MOST]; /* as they are at these values, */
+  bool renewed;                  /* and on this side of the profile they are not those of the best point any more; */
+  bool fresh;                    /* they are its own */
+  bool better;                   /* it fits better than the best point */
+  bool gave_up;                  /* the last search for an end did not come to it */
   ZpFitProfiles *points;
 } Profile;
 
-/* Fit the others again with the derivatives of the best point => whether that sufficed. */
+/* Let the kept derivatives be those at the point, as far as the model is linear. */
+static void carry_slopes(Profile *p) {
+  zp_fit_carry_slopes(p->fit, p->slopes_at, p->at.z, p->at.J);
+  memcpy(p->slopes_at, p->at.z, sizeof p->slopes_at);
+}
+
+static void start_side(Profile *p) {
+  memcpy(p->at.J, p->best->J, p->fit->rows * (size_t)p->fit->n * sizeof *p->at.J);
+  memcpy(p->slopes_at, p->best->z, sizeof p->slopes_at);
+  p->renewed = false;
+}
+
+/* Fit the others again with kept derivatives => whether that sufficed. */
 static bool correct(Profile *p, const bool *held) {
   enum { MOST = 3 };
   static const double little = 0.03; /* of the rise */
   for (int k = 0; k < MOST; k++) {
-    ZpFitPoint before = p->at;
-    double to[ZP_FIT_MOST], falls;
-    before.J = p->best->J;
-    if (!zp_fit_step(p->fit, &before, held, to, &falls)) return false;
+    double before[ZP_FIT_MOST], to[ZP_FIT_MOST], falls;
+    const double square = p->at.square;
+    carry_slopes(p);
+    if (!zp_fit_step(p->fit, &p->at, held, to, &falls)) return false;
     if (falls < little * p->rise) return true;
+    memcpy(before, p->at.z, sizeof before);
     memcpy(p->at.z, to, (size_t)p->fit->n * sizeof *to);
     zp_fit_find_values(p->fit, &p->at);
-    if (p->at.square < before.square) continue;
-    memcpy(p->at.z, before.z, sizeof p->at.z);
+    if (p->at.square < square) continue;
+    memcpy(p->at.z, before, sizeof before);
     return false;
   }
   return false;
+}
+
+/* Fit the others again with derivatives that were found on this side, or `fresh` ones. */
+static void refit(Profile *p, int which, bool fresh) {
+  enum { MOST = 12 };
+  bool held[ZP_FIT_MOST] = {false};
+  held[which] = true;
+  if (fresh)
+    zp_fit_go_to(p->fit, &p->at);
+  else
+    zp_fit_find_values(p->fit, &p->at);
+  if (!fresh) carry_slopes(p);
+  zp_fit_descend_kept(p->fit, held, MOST, !fresh, &p->at);
+  memcpy(p->slopes_at, p->at.z, sizeof p->slopes_at);
+  p->renewed = true;
+  p->fresh = fresh;
 }
 
 static void record(Profile *p, int which, double rise) {
@@ -84,30 +116,39 @@ static bool is_bent(const Profile *p, int which) {
   return fabs(rise - expected) > off * expected + little * p->rise;
 }
 
-/* Rise of the sum of squares where parameter `which` is at z and the others fit best. */
-static double rise_at(Profile *p, int which, double z) {
-  enum { MOST = 12 };
-  bool held[ZP_FIT_MOST] = {false};
-  held[which] = true;
-  begin_at(p, which, z);
-  if (p->fit->n > 1 && (!correct(p, held) || is_bent(p, which))) {
-    zp_fit_go_to(p->fit, &p->at);
-    zp_fit_descend(p->fit, held, MOST, &p->at);
-  }
+/* Note the point => the rise of the sum of squares there. */
+static double look_at_point(Profile *p, int which) {
   const double rise = p->at.square - p->best->square;
   p->better |= p->at.good && rise < -fmax(0.05 * p->rise, 2 * p->fit->scatter);
   record(p, which, rise);
   return rise;
 }
 
-/* The farthest point on one side that is known to belong within the interval; NULL: none. */
-static const ZpFitProfilePoint *farthest_within(const Profile *p, int which, double side) {
+/* Rise of the sum of squares where parameter `which` is at z and the others fit best. */
+static double rise_at(Profile *p, int which, double z) {
+  bool held[ZP_FIT_MOST] = {false};
+  held[which] = true;
+  begin_at(p, which, z);
+  p->fresh = false;
+  if (p->fit->n > 1 && (!correct(p, held) || is_bent(p, which))) refit(p, which, !p->renewed || p->fit->runs == 0);
+  return look_at_point(p, which);
+}
+
+/* The same at the same point, with its own derivatives if it has those of another one on this side. */
+static double settled_rise(Profile *p, int which, double rise) {
+  if (!p->renewed || p->fresh || p->better) return rise;
+  refit(p, which, true);
+  return look_at_point(p, which);
+}
+
+/* The farthest point on one side whose rise is below a share of that at the ends of the interval; NULL: none. */
+static const ZpFitProfilePoint *farthest_within(const Profile *p, int which, double share, double side) {
   const ZpFitProfilePoint *farthest = NULL;
   double most = 0;
   for (size_t i = 0; i < p->points->count; i++) {
     const ZpFitProfilePoint *point = &p->points->point[i];
     const double s = side * (point->z[which] - p->best->z[which]);
-    if (point->rise < p->rise && s > most) most = s, farthest = point;
+    if (point->rise < share * p->rise && s > most) most = s, farthest = point;
   }
   return farthest;
 }
@@ -140,16 +181,20 @@ static double next_of(const Bracket *b) {
 /* The end of an interval on one side; NAN: the bounds come first. */
 static double end_at(Profile *p, int which, double side) {
   enum { MOST = 10 };
-  const double near = fmax(0.06, fmin(p->fit->scatter / p->rise, 0.3));
+  static const double bent = 0.06, straight = 0.25; /* how near to the end a point tells it, by the root of its rise */
+  const double rough = fmin(p->fit->scatter / p->rise, 0.3);
   const double from = p->best->z[which], bound = side > 0 ? p->fit->upper[which] : p->fit->lower[which];
   const double most = fabs(bound - from);
-  const ZpFitProfilePoint *known = farthest_within(p, which, side);
+  const ZpFitProfilePoint *known = farthest_within(p, which, 1, side);
   const double within = known ? fabs(known->z[which] - from) : 0;
   Bracket b = {.low = within, .high = INFINITY, .root_low = known ? sqrt(fmax(known->rise, 0) / p->rise) : 0};
   double s = fmax(sqrt(p->rise * p->C[which][which]), 1.1 * within);
+  start_side(p);
   for (int k = 0; k < MOST && !p->better && !p->fit->stopped && p->fit->status == ZP_OK; k++) {
     s = fmin(s, most);
-    const double share = rise_at(p, which, from + side * s) / p->rise;
+    double share = rise_at(p, which, from + side * s) / p->rise;
+    const double near = fmax(rough, is_bent(p, which) ? bent : straight);
+    if (fabs(share - 1) < near) share = settled_rise(p, which, share * p->rise) / p->rise;
     if (fabs(share - 1) < near) return from + side * fmax(fmin(s / sqrt(share), most), within);
     if (share < 1 && s >= most) return NAN;
     take_share(&b, s, share);
@@ -181,7 +226,9 @@ static void find_one(Profile *p, int which, ZpFitInterval *interval) {
 
 /* Once more, if a point of another profile lies within this interval by its sum of squares, but not by its value. */
 static void widen(Profile *p, int which, ZpFitInterval *interval) {
-  const ZpFitProfilePoint *low = farthest_within(p, which, -1), *high = farthest_within(p, which, 1);
+  static const double clearly = 0.9; /* ends are no more accurate */
+  const ZpFitProfilePoint *low = farthest_within(p, which, clearly, -1);
+  const ZpFitProfilePoint *high = farthest_within(p, which, clearly, 1);
   if ((low && interval->low > low->z[which]) || (high && interval->high < high->z[which])) find_one(p, which, interval);
 }
 
@@ -197,7 +244,8 @@ static void sort_by_looseness(const Profile *p, int n, int *order) {
   }
 }
 
-/* False: a better point was found. The loosest goes first: its valley leads farthest, and shows a better point soonest. */
+/* False: a better point was found. The loosest goes first: its valley leads farthest, and shows a better point soonest.
+ */
 static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
@@ -213,12 +261,13 @@ static bool find_all(Profile *p, ZpFitInterval *interval) {
 
 /* Along the valley of a parameter to its value z, from a point there that has derivatives, and down to its floor. */
 static void walk(Profile *p, int which, double z) {
-  enum { MOST = 3 };
+  enum { MOST = 5 };
   const ZpFitPoint from = p->at;
   bool held[ZP_FIT_MOST] = {false};
   held[which] = true;
   shift(p, from.z, which, z);
-  zp_fit_descend(p->fit, held, MOST, &p->at);
+  zp_fit_carry_slopes(p->fit, from.z, p->at.z, p->at.J);
+  zp_fit_descend_kept(p->fit, held, MOST, true, &p->at);
 }
 
 /* Faces touch and part so often that the floor of a valley may have several minima: is there a better one on one side,
@@ -276,10 +325,14 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
   Profile p = {.fit = fit, .best = best, .rise = zp_fit_level(fit) * variance, .points = points};
   points->count = 0;
   if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
+  static const double little = 0.03;
+  const double enough = fit->enough;
   bool whole = false, is_new = true;
   for (int k = 0; k < MOST && !whole; k++) {
     points->count = 0;
+    fit->enough = fmax(enough, little);
     whole = (!is_new || is_lowest(&p, variance)) && find_all(&p, interval);
+    fit->enough = enough;
     if (!whole) is_new = go_to_better(&p) > variance;
   }
   for (int k = 0; k < fit->n && !whole; k++)

@@ -247,26 +247,30 @@ static void relax(Descent *d, double ratio) {
   d->growth = 2;
 }
 
-/* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden), and be
- * those by the keys there. */
+void zp_fit_carry_slopes(const ZpFit *fit, const double *from, const double *to, double *J) {
+  for (int k = 0; k < fit->n; k++)
+    for (size_t i = 0; i < fit->rows && fit->lower[k] > 0 && from[k] != to[k]; i++)
+      J[i * (size_t)fit->n + (size_t)k] *= from[k] / to[k];
+}
+
+/* Let the kept derivatives agree with the change of the values to the trial, along the step there (Broyden). */
 static void learn(const ZpFit *fit, Descent *d) {
-  double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, scale[ZP_FIT_MOST], squares = 0;
+  double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, squares = 0;
   for (int k = 0; k < fit->n; k++) {
-    const double from = d->point->z[k], to = d->trial.z[k], size = size_of(fit, k, from);
-    step[k] = zp_fit_way(fit, k, from, to);
+    const double from = d->point->z[k], size = size_of(fit, k, from);
+    step[k] = zp_fit_way(fit, k, from, d->trial.z[k]);
     along[k] = step[k] / (size * size);
     squares += step[k] * along[k];
-    scale[k] = fit->lower[k] > 0 ? from / to : 1;
   }
   for (size_t i = 0; i < fit->rows; i++) {
     double *row = d->point->J + i * (size_t)fit->n;
     double off = zp_fit_residual(fit, d->trial.fitted, i) - zp_fit_residual(fit, d->point->fitted, i);
     for (int k = 0; k < fit->n; k++)
       off -= row[k] * step[k];
-    if (!isfinite(off)) off = 0;
-    for (int k = 0; k < fit->n; k++)
-      row[k] = (row[k] + off * along[k] / squares) * scale[k];
+    for (int k = 0; k < fit->n && isfinite(off); k++)
+      row[k] += off * along[k] / squares;
   }
+  zp_fit_carry_slopes(fit, d->point->z, d->trial.z, d->point->J);
 }
 
 /* To the trial, if it is better => whether something has changed. */
@@ -322,14 +326,26 @@ static bool descend(ZpFit *fit, const bool *held, Descent *d) {
   return before > d->point->square && before - d->point->square < flat * flat * before;
 }
 
-bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
-  static const double strongest = 1e8,
-                      far = 0.1; /* how far the squares may have fallen with derivatives kept to the end */
-  Descent d = {.point = point, .keeps = fit->runs > 0, .damping = 1e-3, .growth = 2};
-  bool found = fit->n == 0, opened = zp_fit_open_point(fit, &d.trial);
-  for (int k = 0; k < most && opened && !found && d.damping < strongest && zp_fit_goes_on(fit); k++)
-    found = descend(fit, held, &d);
-  if (d.foreseen > far * point->square / (double)fit->rows && zp_fit_goes_on(fit)) renew(fit, &d);
-  free(d.trial.fitted);
+/* => whether the search has ended at the minimum. */
+static bool descend_all(ZpFit *fit, const bool *held, int most, Descent *d) {
+  static const double strongest = 1e8;
+  bool found = fit->n == 0;
+  const bool opened = zp_fit_open_point(fit, &d->trial);
+  for (int k = 0; k < most && opened && !found && d->damping < strongest && zp_fit_goes_on(fit); k++)
+    found = descend(fit, held, d);
+  free(d->trial.fitted);
   return found;
+}
+
+bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point) {
+  static const double far = 0.1; /* how far the squares may have fallen with derivatives kept to the end */
+  Descent d = {.point = point, .keeps = fit->runs > 0, .damping = 1e-3, .growth = 2};
+  const bool found = descend_all(fit, held, most, &d);
+  if (d.foreseen > far * point->square / (double)fit->rows && zp_fit_goes_on(fit)) renew(fit, &d);
+  return found;
+}
+
+bool zp_fit_descend_kept(ZpFit *fit, const bool *held, int most, bool kept, ZpFitPoint *point) {
+  Descent d = {.point = point, .keeps = fit->runs > 0, .kept = kept, .damping = 1e-3, .growth = 2};
+  return descend_all(fit, held, most, &d);
 }

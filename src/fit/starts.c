@@ -230,8 +230,7 @@ static int follow_all(ZpFit *fit, Start *start, int count, ZpFitPoint *point) {
     return 0;
   }
   memcpy(closing, start, (size_t)count * sizeof *closing);
-  while (followed < MOST && zp_fit_goes_on(fit) &&
-         choose_next(fit, start, closing, followed, minima, count, clean)) {
+  while (followed < MOST && zp_fit_goes_on(fit) && choose_next(fit, start, closing, followed, minima, count, clean)) {
     fit->tolerance = searching;
     if (followed >= minima) descend_from(fit, 0, &start[followed], point);
     clean |= follow_motion(fit, &start[followed++], point);
@@ -246,7 +245,8 @@ static void compare(const ZpFit *fit, Start *start, ZpFitStarts *starts) {
   if (starts->tried > 1) qsort(start, (size_t)starts->tried, sizeof *start, by_square);
   starts->best = start->square;
   for (int k = 1; k < starts->tried; k++) {
-    if (!differ(fit, start[k].z, start->z, apart) || !start[k].good || !start[k].ended || start[k].square >= starts->next)
+    if (!differ(fit, start[k].z, start->z, apart) || !start[k].good || !start[k].ended ||
+        start[k].square >= starts->next)
       continue;
     starts->next = start[k].square;
     memcpy(starts->other, start[k].z, sizeof starts->other);

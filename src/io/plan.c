@@ -1,5 +1,5 @@
-/* Limits: ZP_CASES_MOST cases, a bound against requests by mistake; VALUES_MOST values in all lists, so that the written
- * scenario stays below the size that can be read.
+/* Limits: ZP_CASES_MOST cases, a bound against requests by mistake; VALUES_MOST values in all lists, so that the
+ * written scenario stays below the size that can be read.
  *
  * A problem that a later --set may solve, such as lists of different lengths that vary together, is reported only when
  * a Def is requested. */

@@ -199,11 +199,13 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* `front`: the rows of the best cases, from 0. */
+/* `objectives`: their columns, without a statistic. `front`: the rows of the best cases, from 0. */
 static void define_optimum(const ZpOptimum *optimum, FILE *file) {
   fputs("objectives = '", file);
-  for (size_t i = 0; i < optimum->objectives; i++)
-    fprintf(file, "%s ", optimum->goal[i]);
+  for (size_t i = 0; i < optimum->objectives; i++) {
+    const char *goal = optimum->goal[i], *end = optimum->samples > 1 ? strrchr(goal, '.') : NULL;
+    fprintf(file, "%.*s ", end ? (int)(end - goal) : (int)strlen(goal), goal);
+  }
   fprintf(file, "'\narray front[%zu]\n", optimum->count ? optimum->count : 1);
   for (size_t i = 0; i < optimum->count; i++)
     fprintf(file, "front[%zu] = %zu\n", i + 1, optimum->row[i]);

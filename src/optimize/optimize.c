@@ -21,8 +21,8 @@ struct ZpOptimization {
   size_t samples;    /* of a design, each a row */
   size_t *number;    /* [designs] of those that are done, in the order of the rows */
   size_t designs;
-  size_t *best;      /* [optimum.count] places of them, then their first rows */
-  double *value;     /* [optimum.count][goals] */
+  size_t *best;  /* [optimum.count] places of them, then their first rows */
+  double *value; /* [optimum.count][goals] */
   const char *goal[ZP_GOALS_MOST + ZP_BOUNDS_MOST];
   int variable[ZP_VARIABLES_MOST];
   ZpOptimum optimum;

@@ -38,8 +38,8 @@ static ZpStatus read_variable(char *text, ZpProblem *problem, ZpError *err) {
   return status;
 }
 
-/* "max_load_kg.quantile_05" => the output, and its statistic. Without one, an objective takes the mean, and a constraint
- * holds for 95 of 100 samples. */
+/* "max_load_kg.quantile_05" => the output, and its statistic. Without one, an objective takes the mean, and a
+ * constraint holds for 95 of 100 samples. */
 static void take_statistic(ZpGoal *goal, bool is_bound) {
   char *point = strrchr(goal->output, '.');
   goal->statistic = !is_bound ? ZP_MEAN : goal->sign < 0 ? ZP_QUANTILE_05 : ZP_QUANTILE_95;

@@ -35,8 +35,8 @@ typedef struct ZpSearch {
   ZpStudy study;
   ZpJournal *journal;
   uint64_t start;       /* zp_campaign_hash */
-  size_t room;     /* number of designs: problem.evaluations, and with constraints as many for zp_search_exclude */
-  uint64_t *old;   /* [room * samples] hashes of the rows of an earlier process; 0: none */
+  size_t room;          /* number of designs: problem.evaluations, and with constraints as many for zp_search_exclude */
+  uint64_t *old;        /* [room * samples] hashes of the rows of an earlier process; 0: none */
   ZpPoint *point;       /* [room] */
   double excluded;      /* result of zp_search_exclude; NAN before */
   bool derivatives;     /* the cases have the derivatives of the study */
