@@ -96,6 +96,30 @@ TEST(keys_in_a_valley_are_found) {
   ck_assert_double_ge(zp_result_get(result, "medium.permittivity_interval_95_high"), 2.6);
 }
 
+static bool stop_at_last(void *user, const char *stage, double fraction) {
+  int *calls = user;
+  (void)stage, (void)fraction;
+  return --*calls < 0;
+}
+
+/* A fit that is stopped while it seeks intervals has values, and does not claim to have ended. */
+TEST(stopped_fit_has_not_converged) {
+  const ZpActuatorDef def = in_a_valley(2e-5);
+  ZpResult *result = NULL;
+  ZpError err;
+  int calls = 1 << 30;
+  const ZpHooks count = {&calls, stop_at_last, NULL};
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_CALIBRATE, &def, &count, &result, &err), ZP_OK);
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  zp_result_destroy(result);
+  calls = ((1 << 30) - calls) * 9 / 10;
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_CALIBRATE, &def, &count, &result, &err), ZP_OK);
+  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
+  ck_assert_int_eq(result->outcome, ZP_INTERRUPTED);
+  ck_assert(isfinite(zp_result_get(result, "ribbon.young_modulus")));
+  zp_result_destroy(result);
+}
+
 /* A fit of two keys to three rows, without files, and a point of it. */
 typedef struct Plain {
   ZpFitSet set;

@@ -408,10 +408,11 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   const bool doubtful = !zp_fit_is_noise(&judgement) || zp_fit_is_missing(&missing) ||
                         is_ambiguous(fit, &starts, interval) || !best->ended;
   const char *bound = name_at_bound(fit, z);
-  result->outcome = !good      ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
-                    : doubtful ? ZP_DOUBTFUL
-                    : bound    ? ZP_AT_BOUND
-                               : ZP_CONVERGED;
+  result->outcome = fit->stopped ? ZP_INTERRUPTED
+                    : !good      ? ZP_NOT_SETTLED
+                    : doubtful   ? ZP_DOUBTFUL
+                    : bound      ? ZP_AT_BOUND
+                                 : ZP_CONVERGED;
   if (good)
     say(fit, fitted, bound, square, result);
   else

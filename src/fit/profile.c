@@ -335,6 +335,7 @@ void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterv
     fit->enough = enough;
     if (!whole) is_new = go_to_better(&p) > variance;
   }
+  best->ended &= whole;
   for (int k = 0; k < fit->n && !whole; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, true};
   free(p.at.fitted);
