@@ -204,18 +204,26 @@ static void print_row(const ZpReport *report, size_t index) {
   printf("\n");
 }
 
+/* Print outputs of a best case: "    stroke_m = 0.0123". */
+static void print_goals(const char *const *name, const double *value, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    printf("    %s = %.6g\n", name[i], value[i]);
+}
+
 /* Print the best cases of an optimisation; of designs with samples the constraints, too. */
 static void print_optimum(const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
   printf("%s\n", optimum->message);
   for (size_t i = 0; i < optimum->count; i++) {
     const size_t row = optimum->row[i];
-    if (optimum->samples == 1)
+    const double *value = optimum->value + i * (optimum->objectives + optimum->constraints);
+    const bool sampled = optimum->samples > 1;
+    if (!sampled)
       print_row(report, row);
     else if (print_keys(report, row, optimum->variable, optimum->variables))
       printf("  %zu samples\n", optimum->samples);
-    for (size_t g = 0; g < (optimum->samples == 1 ? optimum->objectives : optimum->goals); g++)
-      printf("    %s = %.6g\n", optimum->goal[g], optimum->value[i * optimum->goals + g]);
+    print_goals(optimum->objective, value, optimum->objectives);
+    if (sampled) print_goals(optimum->constraint, value + optimum->objectives, optimum->constraints);
   }
 }
 

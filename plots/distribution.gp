@@ -16,6 +16,7 @@ alone(i) = int(i) % blocks < independent
 set datafile separator ','
 set datafile columnheaders
 optimised = exists('objectives')
+if (!optimised) { array front[1] = [-1] }
 chosen = ''
 counts = ''
 do for [i=1:optimised ? |front| : cases/samples] {

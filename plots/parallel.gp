@@ -1,14 +1,16 @@
 #picture parallel.svg many motion|branch|held_branch|shape|modes|field|limits :lines
-# All cases of a sweep: an axis for each list key and each answer, or objective, that varies, twelve at most, and a line for
-# each case, or of very many for some evenly chosen ones, coloured by the first answer. Names are above, aslant so that they
-# do not meet, the ends of the ranges at both ends.
+# All cases of a sweep: an axis for each list key, ten at most, and each answer, or objective, that varies, twelve in all,
+# and a line for each case, or of very many for some evenly chosen ones, coloured by the first answer. Names are above,
+# aslant so that they do not meet, the ends of the ranges at both ends.
 load 'answers.gp'
 optimised = exists('objectives')
 if (!optimised) { array front[1] = [-1] }
 _varies(c) = exists('lowest_'.plain(c)) && of('highest_', c) > of('lowest_', c)
 _those(l, n) = n == 0 ? '' : _those(l, n - 1).(_varies(word(l, n)) ? word(l, n).' ' : '')
 _first(l) = _those(l, words(l))
+_cut(l, n) = n == 0 ? '' : _cut(l, n - 1).word(l, n).' '
 shown = _first(lists)
+shown = _cut(shown, min(10, words(shown)))
 colour_axis = words(shown) + 1
 shown = shown._first(optimised ? objectives : number[1].' '.number[2])
 colour_axis = min(colour_axis, words(shown))

@@ -676,8 +676,7 @@ TEST(lines_of_cases_and_of_the_front) {
                              .count = 2,
                              .feasible = true,
                              .excluded = NAN,
-                             .goal = objective,
-                             .goals = 2,
+                             .objective = objective,
                              .objectives = 2,
                              .samples = 1};
   ZpScenario *scenario = scenario_of("ribbon.thickness=[40 um, 60 um, 80 um]");

@@ -143,12 +143,13 @@ typedef struct ZpOptimum {
   double excluded;   /* share of the box that contains no feasible design, according to the cases; NAN: not examined */
   ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED */
   char message[256]; /* one sentence about the result */
+  const char *const *objective; /* [objectives] names of outputs; of designs with samples "output.statistic" */
+  size_t objectives;
+  const char *const *constraint; /* [constraints] likewise */
+  size_t constraints;
+  const double *value; /* [count][objectives + constraints] SI; NAN: there is none */
   const int *variable; /* [variables] the keys that were searched */
   size_t variables;
-  const char *const *goal; /* [goals] names of outputs, first those of the objectives, then of the constraints; of a
-                            * design with samples "output.statistic" */
-  const double *value;     /* [count][goals] SI; NAN: there is none */
-  size_t goals, objectives;
   size_t samples; /* cases of a design: 1 without distributions */
 } ZpOptimum;
 

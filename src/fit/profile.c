@@ -134,7 +134,7 @@ static double rise_at(Profile *p, int which, double z) {
   return look_at_point(p, which);
 }
 
-/* The same at the same point, with its own derivatives if it has those of another one on this side. */
+/* The rise at the present point of the profile, with its own derivatives if it has those of another one. */
 static double settled_rise(Profile *p, int which, double rise) {
   if (!p->renewed || p->fresh || p->better) return rise;
   refit(p, which, true);

@@ -203,7 +203,7 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
 static void define_optimum(const ZpOptimum *optimum, FILE *file) {
   fputs("objectives = '", file);
   for (size_t i = 0; i < optimum->objectives; i++) {
-    const char *goal = optimum->goal[i], *end = optimum->samples > 1 ? strrchr(goal, '.') : NULL;
+    const char *goal = optimum->objective[i], *end = optimum->samples > 1 ? strrchr(goal, '.') : NULL;
     fprintf(file, "%.*s ", end ? (int)(end - goal) : (int)strlen(goal), goal);
   }
   fprintf(file, "'\narray front[%zu]\n", optimum->count ? optimum->count : 1);

@@ -193,10 +193,11 @@ static void tell_best(ZpOptimization *o) {
   o->optimum.row = o->best;
   o->optimum.variable = o->variable;
   o->optimum.variables = p->variables;
-  o->optimum.goal = o->goal;
-  o->optimum.value = o->value;
-  o->optimum.goals = p->goals;
+  o->optimum.objective = o->goal;
   o->optimum.objectives = p->objectives;
+  o->optimum.constraint = o->goal + p->objectives;
+  o->optimum.constraints = p->goals - p->objectives;
+  o->optimum.value = o->value;
   o->optimum.samples = o->samples;
 }
 

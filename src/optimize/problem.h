@@ -49,10 +49,10 @@ double zp_variable_slope(const ZpInterval *variable, double z);
  * most 0 if satisfied. NAN if the output does not exist. */
 double zp_goal_value(const ZpProblem *problem, size_t goal, double output);
 
-/* The output of which that is the value. */
+/* The output of a goal, from its zp_goal_value. */
 double zp_goal_output(const ZpProblem *problem, size_t goal, double value);
 
-/* What stands for the output of a sample that has none: the worst value. */
+/* The worst value, for a sample that has no output. */
 double zp_goal_worst(const ZpGoal *goal);
 
 /* The derivative of a goal with respect to its output. */

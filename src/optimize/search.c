@@ -74,7 +74,7 @@ size_t zp_search_samples(const ZpSearch *s) {
   return zp_scenario_count(s->samples);
 }
 
-/* What the goals are called. */
+/* Names of outputs for people, with the statistic of samples. */
 static void name_goals(ZpSearch *s) {
   for (size_t g = 0; g < s->problem.goals; g++) {
     ZpGoal *goal = &s->problem.goal[g];
@@ -115,7 +115,7 @@ void zp_search_end(ZpSearch *s) {
 
 /* -- one case --------------------------------------------------------------------------------------- */
 
-/* What the samples of a design give, and the keys that are drawn. */
+/* Outputs of the samples of a design, and the values of its drawn keys. */
 typedef struct Sheet {
   ZpSample *sample; /* [goals][variables][samples] of the outputs, with derivatives by the keys */
   double *drawn;    /* values of the drawn keys of a sample */

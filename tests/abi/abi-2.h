@@ -20,6 +20,7 @@ typedef enum ZpStudy {
   ZP_STUDY_CALIBRATE,
   ZP_STUDY_LIMITS,
   ZP_STUDY_CYCLE,
+  ZP_STUDY_PLAN,
 } ZpStudy;
 typedef enum ZpPreset {
   ZP_PRESET_NONE,
@@ -33,6 +34,9 @@ typedef enum ZpActuatorKind {
   ZP_KIND_FLANGE,
   ZP_KIND_HINGE,
   ZP_KIND_MOUTH,
+  ZP_KIND_POUCH,
+  ZP_KIND_CURVED,
+  ZP_KIND_PLATE,
 } ZpActuatorKind;
 typedef enum ZpRightEnd {
   ZP_END_GUIDED,
@@ -96,6 +100,7 @@ typedef enum ZpControlSignal {
   ZP_CONTROL_STROKE,
   ZP_CONTROL_CONTRACTION,
   ZP_CONTROL_CAPACITANCE,
+  ZP_CONTROL_ANGLE,
 } ZpControlSignal;
 typedef enum ZpSourceModel {
   ZP_SOURCE_IDEAL,
@@ -108,6 +113,7 @@ typedef enum ZpSupplyName {
   ZP_SUPPLY_EIGHT_CHANNEL,
   ZP_SUPPLY_LABORATORY_10KV,
   ZP_SUPPLY_CONVERTER_10KV,
+  ZP_SUPPLY_MEASURED_10KV,
 } ZpSupplyName;
 typedef enum ZpStripMaterial {
   ZP_STRIP_NONE,
@@ -135,6 +141,9 @@ typedef enum ZpMediumMaterial {
   ZP_MEDIUM_SILICONE_OIL_350CST,
   ZP_MEDIUM_FR3,
   ZP_MEDIUM_MINERAL_OIL,
+  ZP_MEDIUM_AIR,
+  ZP_MEDIUM_WATER,
+  ZP_MEDIUM_VACUUM,
 } ZpMediumMaterial;
 typedef enum ZpWhen {
   ZP_WHEN_AUTO,
@@ -150,6 +159,21 @@ typedef enum ZpIntegrator {
   ZP_INTEGRATOR_EXPLICIT,
   ZP_INTEGRATOR_IMPLICIT,
 } ZpIntegrator;
+typedef enum ZpMoves {
+  ZP_MOVES_VERTICAL,
+  ZP_MOVES_PLANE,
+  ZP_MOVES_NONE,
+} ZpMoves;
+typedef enum ZpSpringKind {
+  ZP_SPRING_BOTH,
+  ZP_SPRING_PULL,
+  ZP_SPRING_PUSH,
+} ZpSpringKind;
+typedef enum ZpJointType {
+  ZP_JOINS_PIN,
+  ZP_JOINS_SLIDE,
+  ZP_JOINS_WELD,
+} ZpJointType;
 typedef enum ZpInitialState {
   ZP_INITIAL_EQUILIBRIUM,
   ZP_INITIAL_STRAIGHT,
@@ -167,7 +191,12 @@ typedef enum ZpSampling {
 typedef enum ZpTolerances {
   ZP_TOLERANCES_GIVEN,
   ZP_TOLERANCES_MATERIALS,
+  ZP_TOLERANCES_BASE,
 } ZpTolerances;
+typedef enum ZpPlanCriterion {
+  ZP_PLAN_D,
+  ZP_PLAN_A,
+} ZpPlanCriterion;
 typedef enum ZpOptimizer {
   ZP_OPTIMIZER_AUTO,
   ZP_OPTIMIZER_SLSQP,
@@ -209,12 +238,14 @@ void zp_def_destroy(ZpActuatorDef *def);
 int zp_key_count(void);
 const ZpKey *zp_key(int index);
 int zp_key_find(const char *name);
+const char *zp_key_name(int index, char text[64]);
 int zp_word_distance(const char *a, const char *b);
 const char *zp_key_nearest(const char *name);
 void zp_key_unknown(const char *name, char *text, size_t size);
 int zp_key_choice(int index, const char *word);
 
 _Bool zp_key_in_def(int index);
+int zp_def_next_key(const ZpActuatorDef *def, int index);
 double zp_def_get(const ZpActuatorDef *def, int index);
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
 const char *zp_def_text(const ZpActuatorDef *def, int index);
@@ -234,6 +265,7 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
 _Bool zp_def_takes_table(const ZpActuatorDef *def);
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
+double zp_def_roughness(const ZpActuatorDef *def);
 double zp_def_tolerance(const ZpActuatorDef *def);
 typedef struct ZpDriveTable {
   size_t rows;
@@ -304,7 +336,8 @@ typedef enum ZpOutcome {
   ZP_AT_BOUND,
   ZP_TIME_LIMIT,
   ZP_REOPENED,
-  ZP_BEYOND_MODEL
+  ZP_BEYOND_MODEL,
+  ZP_DOUBTFUL
 } ZpOutcome;
 const char *zp_outcome_name(ZpOutcome outcome);
 
@@ -340,8 +373,19 @@ ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRu
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 typedef enum ZpInput { ZP_INPUT_VOLTAGE, ZP_INPUT_LOAD, ZP_INPUT_SETPOINT, ZP_INPUT_COUNT } ZpInput;
 const char *zp_input_name(ZpInput input);
+enum { ZP_INPUT_NAME_SIZE = 48 };
+int zp_def_input_next(const ZpActuatorDef *def, int input);
+const char *zp_def_input_name(const ZpActuatorDef *def, int input, char text[ZP_INPUT_NAME_SIZE]);
+const char *zp_def_input_unit(const ZpActuatorDef *def, int input);
+int zp_def_input_find(const ZpActuatorDef *def, const char *name);
+int zp_def_input_member(const ZpActuatorDef *def, int input, int *which);
+ZpStatus zp_def_forget_ports(ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
+ZpStatus zp_sim_set_input_named(ZpSim *sim, const char *name, double value, double rate, ZpError *err);
 ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err);
+size_t zp_sim_columns(const ZpSim *sim);
+void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row);
+ZpStatus zp_sim_column_slopes(ZpSim *sim, ZpInput input, size_t columns, double *slope, ZpError *err);
 typedef struct ZpController {
   double period;
   void *user;
@@ -374,6 +418,7 @@ ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err
 const ZpColumn *zp_signal_columns(size_t *count);
 const char *zp_signal_name(size_t index);
 const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);
+ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity);
 const char *zp_control_unit(const ZpActuatorDef *def);
 int zp_signal_find(const char *name);
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
@@ -436,6 +481,7 @@ ZpResult *zp_result_create(ZpStudy study);
 void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value);
 void zp_result_note(ZpResult *result, const char *format, ...);
 void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest);
 void zp_result_forget_states(ZpResult *result);
@@ -455,6 +501,15 @@ const ZpTable *zp_result_series(const ZpResult *result);
 const ZpShapes *zp_result_shapes(const ZpResult *result);
 const ZpFieldMap *zp_result_map(const ZpResult *result);
 const ZpCheckpoint *zp_result_checkpoint(const ZpResult *result);
+enum { ZP_TRACE_SIGNALS = 8, ZP_TRACE_KEYS = 8 };
+typedef struct ZpTrace ZpTrace;
+ZpStatus zp_trace_create(const ZpModel *model, const char *const *signal, size_t signals, const int *key, size_t keys,
+                         double end, const ZpHooks *hooks, ZpTrace **trace, ZpError *err);
+void zp_trace_destroy(ZpTrace *trace);
+typedef struct ZpTraceValue {
+  double value, rate, by_key[ZP_TRACE_KEYS];
+} ZpTraceValue;
+ZpTraceValue zp_trace_at(const ZpTrace *trace, size_t signal, double time);
 const char *zp_version(void);
 typedef struct ZpScenario ZpScenario;
 ZpScenario *zp_scenario_create(void);
@@ -465,6 +520,8 @@ ZpStatus zp_scenario_override(ZpScenario *scenario, const char *text, size_t siz
 ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 size_t zp_scenario_count(const ZpScenario *scenario);
 const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
+enum { ZP_SCENARIO_KEY_SIZE = 128 };
+const char *zp_scenario_key(const ZpScenario *scenario, int key, char text[ZP_SCENARIO_KEY_SIZE]);
 
 _Bool zp_scenario_bare_number(const ZpScenario *scenario, int key, double *value);
 
@@ -504,6 +561,12 @@ typedef struct ZpOptimum {
   char message[256];
   const char *const *objective;
   size_t objectives;
+  const char *const *constraint;
+  size_t constraints;
+  const double *value;
+  const int *variable;
+  size_t variables;
+  size_t samples;
 } ZpOptimum;
 typedef struct ZpReport {
   const char *directory;
