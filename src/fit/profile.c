@@ -250,7 +250,7 @@ static bool find_all(Profile *p, ZpFitInterval *interval) {
   for (int k = 0; k < p->fit->n; k++)
     interval[k] = (ZpFitInterval){NAN, NAN, -1, false};
   if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
-  int order[ZP_FIT_MOST];
+  int order[ZP_FIT_MOST] = {0};
   sort_by_looseness(p, p->fit->n, order);
   for (int k = 0; k < p->fit->n && !p->better; k++)
     find_one(p, order[k], &interval[order[k]]);
@@ -294,7 +294,7 @@ static bool is_lowest(Profile *p, double variance) {
   const double enough = fit->enough, rough = fit->rough;
   if (fit->runs == 0 || fit->keys == 0 || !zp_fit_covariance(fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
   fit->slopes = ZP_FIT_ONE_SIDED, fit->enough = 0.3, fit->rough = 10;
-  int order[ZP_FIT_MOST];
+  int order[ZP_FIT_MOST] = {0};
   sort_by_looseness(p, p->fit->keys, order);
   const int loosest = order[0];
   look_beyond(p, loosest, variance, -1);

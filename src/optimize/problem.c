@@ -48,7 +48,7 @@ static void take_statistic(ZpGoal *goal, bool is_bound) {
     goal->statistic = (ZpStatistic)k;
     goal->named = true;
   }
-  if (goal->named) *point = 0;
+  if (point && goal->named) *point = 0;
 }
 
 /* `bound`: the text of a constraint's; NULL: the goal is an objective. */

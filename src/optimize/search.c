@@ -125,7 +125,7 @@ static bool open_sheet(const ZpSearch *s, Sheet *sheet) {
   size_t keys;
   zp_scenario_lists(s->samples, &keys);
   const size_t count = s->problem.goals * s->problem.variables * zp_search_samples(s);
-  *sheet = (Sheet){calloc(count, sizeof *sheet->sample), calloc(keys + 1, sizeof *sheet->drawn)};
+  *sheet = (Sheet){calloc(count + 1, sizeof *sheet->sample), calloc(keys + 1, sizeof *sheet->drawn)};
   return sheet->sample && sheet->drawn;
 }
 
