@@ -204,27 +204,27 @@ static void print_row(const ZpReport *report, size_t index) {
   printf("\n");
 }
 
-/* Print outputs of a best case: "    stroke_m = 0.0123". */
-static void print_goals(const char *const *name, const double *value, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    printf("    %s = %.6g\n", name[i], value[i]);
+/* Print a best case; of a design with samples its statistics, also those of the constraints. */
+static void print_best(const ZpReport *report, size_t place) {
+  const ZpOptimum *optimum = report->optimum;
+  const size_t row = optimum->row[place], goals = optimum->objectives + optimum->constraints;
+  const bool sampled = optimum->samples > 1;
+  if (!sampled)
+    print_row(report, row);
+  else if (print_keys(report, row, optimum->variable, optimum->variables))
+    printf("  %zu samples\n", optimum->samples);
+  for (size_t g = 0; g < (sampled ? goals : optimum->objectives); g++) {
+    const bool is_bound = g >= optimum->objectives;
+    printf("    %s%s%s = %.6g\n", is_bound ? optimum->constraint[g - optimum->objectives] : optimum->objective[g],
+           sampled ? "." : "", sampled ? optimum->statistic[g] : "", optimum->value[place * goals + g]);
+  }
 }
 
-/* Print the best cases of an optimisation; of designs with samples the constraints, too. */
+/* Print the best cases of an optimisation. */
 static void print_optimum(const ZpReport *report) {
-  const ZpOptimum *optimum = report->optimum;
-  printf("%s\n", optimum->message);
-  for (size_t i = 0; i < optimum->count; i++) {
-    const size_t row = optimum->row[i];
-    const double *value = optimum->value + i * (optimum->objectives + optimum->constraints);
-    const bool sampled = optimum->samples > 1;
-    if (!sampled)
-      print_row(report, row);
-    else if (print_keys(report, row, optimum->variable, optimum->variables))
-      printf("  %zu samples\n", optimum->samples);
-    print_goals(optimum->objective, value, optimum->objectives);
-    if (sampled) print_goals(optimum->constraint, value + optimum->objectives, optimum->constraints);
-  }
+  printf("%s\n", report->optimum->message);
+  for (size_t i = 0; i < report->optimum->count; i++)
+    print_best(report, i);
 }
 
 /* Print the numbers of a sweep as a whole. */

@@ -7,8 +7,8 @@
 #picture distribution.svg many limits max_load_kg :samples
 #picture distribution.svg many cycle opening_max_m|opening_min_m|stroke_max_m|stroke_min_m :samples
 # How large a share of the samples of a campaign lies below a value: a curve for each combination of the lists' values and
-# each answer of the study, eight at most; of an optimisation for its best designs. Curve k is the column scalar[k] of the table in the `samples` rows from start[k]
-# on, of which found[k] have a value and are independent.
+# each answer of the study, eight at most; of an optimisation for its best designs. Curve k is the column scalar[k] of the
+# table in the `samples` rows from start[k] on, of which found[k] have a value and are independent.
 load 'answers.gp'
 title = 'Distribution over the samples'
 remark = sprintf('%d samples per curve; those without a value are left out', samples/blocks*independent)

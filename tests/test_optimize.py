@@ -75,8 +75,8 @@ def check_robust_strip(zipact, scratch):
         name, number = constraint.split(" ")[0].split(".")[-1].replace("stroke_m", "quantile_95"), best["outputs"]["stroke_m"]
         modulus = 200e9 * math.exp(-0.05 * score)
         expected = (10e-6 * 9.81 * 0.1**3 * (1 - 0.285**2) / (modulus * 12.7e-3 * 0.3e-3)) ** (1 / 3)
-        ok("%s: the bound" % constraint, run.returncode == 0 and found["optimum"]["feasible"] and abs(number[name] / 0.3e-3 - 1) < 1e-4 and number["count"] == 64)
-        ok("%s: the thickness" % constraint, abs(best["ribbon.thickness"] / expected - 1) < 3e-3)  # of 64 samples; 1.1e-3 measured
+        ok("%s: the bound" % constraint, run.returncode == 0 and found["optimum"]["feasible"] and abs(number[name] / 0.3e-3 - 1) < 2e-6 and number["count"] == 64)
+        ok("%s: the thickness" % constraint, abs(best["ribbon.thickness"] / expected - 1) < 3e-3)  # of 64 samples; 1.6e-3 measured
         ok("%s: printed" % constraint, "    stroke_m.mean = %.6g" % number["mean"] in run.stdout and "    stroke_m.%s = %.6g" % (name, number[name]) in run.stdout)
     again = subprocess.run([zipact.program, "optimize", str(scratch / "robust-slsqp" / "scenario.yaml"), "--no-plots", "--quiet", "-o", str(scratch / "robust-again")])
     ok("robust: its scenario.yaml gives the same optimisation", again.returncode == 0 and files(scratch / "robust-again") == files(scratch / "robust-slsqp"))

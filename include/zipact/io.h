@@ -143,12 +143,14 @@ typedef struct ZpOptimum {
   double excluded;   /* share of the box that contains no feasible design, according to the cases; NAN: not examined */
   ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED */
   char message[256]; /* one sentence about the result */
-  const char *const *objective; /* [objectives] names of outputs; of designs with samples "output.statistic" */
+  const char *const *objective; /* [objectives] names of outputs */
   size_t objectives;
   const char *const *constraint; /* [constraints] likewise */
   size_t constraints;
-  const double *value; /* [count][objectives + constraints] SI; NAN: there is none */
-  const int *variable; /* [variables] the keys that were searched */
+  const char *const *statistic; /* [objectives + constraints] of designs with samples: the number of the distribution
+                                 * that counts, "quantile_05" */
+  const double *value;          /* [count][objectives + constraints] SI; NAN: there is none */
+  const int *variable;          /* [variables] the keys that were searched */
   size_t variables;
   size_t samples; /* cases of a design: 1 without distributions */
 } ZpOptimum;

@@ -145,6 +145,9 @@ bool zp_fit_run_def(const ZpFit *fit, const ZpFitRun *run, const double *z, ZpAc
  * 0. */
 double zp_fit_size(double z);
 
+/* Likewise of parameter k at z; a shift is compared with its unit at least. */
+double zp_fit_size_of(const ZpFit *fit, int k, double z);
+
 /* Sign of a change of the stroke as an actuator closes. */
 double zp_fit_closing(const ZpModel *model);
 

@@ -157,12 +157,13 @@ static const ZpFitProfilePoint *farthest_within(const Profile *p, int which, dou
  * the nearest that does not, with the roots of the shares of the rise there, which grow nearly linearly. */
 typedef struct Bracket {
   double low, high, root_low, root_high;
-  int turned; /* points of the same side in a row */
+  int turned; /* points in a row that lie within it, or minus those that do not */
 } Bracket;
 
 static void take_share(Bracket *b, double s, double share) {
   const bool within = share < 1;
-  b->turned = within == (b->turned > 0) ? b->turned + (within ? 1 : -1) : within ? 1 : -1;
+  const int side = within ? 1 : -1;
+  b->turned = b->turned * side > 0 ? b->turned + side : side;
   if (within)
     b->low = s, b->root_low = sqrt(fmax(share, 0));
   else
@@ -237,7 +238,7 @@ static void sort_by_looseness(const Profile *p, int n, int *order) {
   double error[ZP_FIT_MOST];
   for (int k = 0; k < n; k++) {
     int place = k;
-    error[k] = sqrt(p->C[k][k]) / (k < p->fit->keys ? zp_fit_size(p->best->z[k]) : fmax(fabs(p->best->z[k]), 1));
+    error[k] = sqrt(p->C[k][k]) / zp_fit_size_of(p->fit, k, p->best->z[k]);
     for (; place > 0 && error[order[place - 1]] < error[k]; place--)
       order[place] = order[place - 1];
     order[place] = k;

@@ -53,8 +53,7 @@ static Normal normal_of(const ZpFit *fit, const ZpFitPoint *at, const bool *held
   return normal;
 }
 
-/* Size of a parameter with which its changes are compared. */
-static double size_of(const ZpFit *fit, int k, double z) {
+double zp_fit_size_of(const ZpFit *fit, int k, double z) {
   return k < fit->keys ? zp_fit_size(z) : fmax(fabs(z), 1);
 }
 
@@ -88,7 +87,7 @@ static int farthest_out(const ZpFit *fit, const double *z, const Box *box, const
   int found = -1;
   double most = 0;
   for (int k = 0; k < fit->n; k++) {
-    const double out = fmax(step[k] - box->high[k], box->low[k] - step[k]) / size_of(fit, k, z[k]);
+    const double out = fmax(step[k] - box->high[k], box->low[k] - step[k]) / zp_fit_size_of(fit, k, z[k]);
     if (out > most) most = out, found = k;
   }
   return found;
@@ -142,7 +141,7 @@ static double go(const ZpFit *fit, const double *from, const double *step, doubl
   double moved = 0;
   for (int k = 0; k < fit->n; k++) {
     to[k] = zp_fit_end(fit, k, from[k], step[k]);
-    moved = fmax(moved, fabs(to[k] - from[k]) / size_of(fit, k, from[k]));
+    moved = fmax(moved, fabs(to[k] - from[k]) / zp_fit_size_of(fit, k, from[k]));
   }
   return moved;
 }
@@ -257,7 +256,7 @@ void zp_fit_carry_slopes(const ZpFit *fit, const double *from, const double *to,
 static void learn(const ZpFit *fit, Descent *d) {
   double along[ZP_FIT_MOST] = {0}, step[ZP_FIT_MOST] = {0}, squares = 0;
   for (int k = 0; k < fit->n; k++) {
-    const double from = d->point->z[k], size = size_of(fit, k, from);
+    const double from = d->point->z[k], size = zp_fit_size_of(fit, k, from);
     step[k] = zp_fit_way(fit, k, from, d->trial.z[k]);
     along[k] = step[k] / (size * size);
     squares += step[k] * along[k];
@@ -296,9 +295,11 @@ static bool take(ZpFit *fit, Descent *d, double falls) {
   return better || renews;
 }
 
+/* A step so short, in multiples of the parameters' sizes, or a fall so small, as a part of the squares, is none. */
+static const double near = 1e-9, flat = 1e-9;
+
 /* Is the point the minimum, as far as the model says? Damped steps do not tell: along a valley they are short. */
 static bool is_lowest(const ZpFit *fit, const Normal *normal, const ZpFitPoint *point) {
-  static const double near = 1e-9, flat = 1e-9;
   double step[ZP_FIT_MOST], to[ZP_FIT_MOST];
   if (!damped_step(fit, normal, point->z, 0, step)) return false;
   const double falls = fall_over(fit, normal, step), least = fit->enough * point->square / (double)fit->rows;
@@ -307,7 +308,6 @@ static bool is_lowest(const ZpFit *fit, const Normal *normal, const ZpFitPoint *
 
 /* One step => whether the search ends. */
 static bool descend(ZpFit *fit, const bool *held, Descent *d) {
-  static const double near = 1e-9, flat = 1e-9;
   const double variance = d->point->square / (double)fit->rows;
   const Normal normal = normal_of(fit, d->point, held);
   double step[ZP_FIT_MOST], before = d->point->square;

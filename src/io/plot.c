@@ -199,13 +199,11 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* `objectives`: their columns, without a statistic. `front`: the rows of the best cases, from 0. */
+/* `front`: the rows of the best cases, from 0. */
 static void define_optimum(const ZpOptimum *optimum, FILE *file) {
   fputs("objectives = '", file);
-  for (size_t i = 0; i < optimum->objectives; i++) {
-    const char *goal = optimum->objective[i], *end = optimum->samples > 1 ? strrchr(goal, '.') : NULL;
-    fprintf(file, "%.*s ", end ? (int)(end - goal) : (int)strlen(goal), goal);
-  }
+  for (size_t i = 0; i < optimum->objectives; i++)
+    fprintf(file, "%s ", optimum->objective[i]);
   fprintf(file, "'\narray front[%zu]\n", optimum->count ? optimum->count : 1);
   for (size_t i = 0; i < optimum->count; i++)
     fprintf(file, "front[%zu] = %zu\n", i + 1, optimum->row[i]);

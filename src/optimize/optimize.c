@@ -23,7 +23,7 @@ struct ZpOptimization {
   size_t designs;
   size_t *best;  /* [optimum.count] places of them, then their first rows */
   double *value; /* [optimum.count][goals] */
-  const char *goal[ZP_GOALS_MOST + ZP_BOUNDS_MOST];
+  const char *goal[ZP_GOALS_MOST + ZP_BOUNDS_MOST], *statistic[ZP_GOALS_MOST + ZP_BOUNDS_MOST];
   int variable[ZP_VARIABLES_MOST];
   ZpOptimum optimum;
   ZpRows rows;
@@ -186,8 +186,10 @@ static void tell_best(ZpOptimization *o) {
       o->value[k * p->goals + g] = zp_goal_output(p, g, point_of(o, o->best[k])->value[g]);
     o->best[k] *= o->samples;
   }
-  for (size_t g = 0; g < p->goals; g++)
-    o->goal[g] = p->goal[g].shown;
+  for (size_t g = 0; g < p->goals; g++) {
+    o->goal[g] = p->goal[g].output;
+    o->statistic[g] = zp_statistic_name[p->goal[g].statistic];
+  }
   for (size_t i = 0; i < p->variables; i++)
     o->variable[i] = p->variable[i].key;
   o->optimum.row = o->best;
@@ -197,6 +199,7 @@ static void tell_best(ZpOptimization *o) {
   o->optimum.objectives = p->objectives;
   o->optimum.constraint = o->goal + p->objectives;
   o->optimum.constraints = p->goals - p->objectives;
+  o->optimum.statistic = o->statistic;
   o->optimum.value = o->value;
   o->optimum.samples = o->samples;
 }

@@ -22,7 +22,6 @@ typedef struct ZpGoal {
   double sign;           /* objective: 1 for min, -1 for max; constraint: 1 for <=, -1 for >= */
   double bound;          /* bound of a constraint, SI once the unit is known */
   char bound_text[64];   /* as written: "15 mm" */
-  char shown[88];        /* the output, with its statistic if there are samples */
 } ZpGoal;
 
 typedef struct ZpProblem {

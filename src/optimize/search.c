@@ -74,16 +74,6 @@ size_t zp_search_samples(const ZpSearch *s) {
   return zp_scenario_count(s->samples);
 }
 
-/* Names of outputs for people, with the statistic of samples. */
-static void name_goals(ZpSearch *s) {
-  for (size_t g = 0; g < s->problem.goals; g++) {
-    ZpGoal *goal = &s->problem.goal[g];
-    const bool samples = zp_scenario_design(s->samples) != NULL;
-    snprintf(goal->shown, sizeof goal->shown, "%s%s%s", goal->output, samples ? "." : "",
-             samples ? zp_statistic_name[goal->statistic] : "");
-  }
-}
-
 static ZpStatus check_samples(const ZpSearch *s, ZpError *err) {
   const size_t samples = zp_search_samples(s), most = ZP_CASES_MOST / (2 * samples);
   for (size_t g = 0; g < s->problem.goals && !zp_scenario_design(s->samples); g++)
@@ -104,7 +94,6 @@ ZpStatus zp_search_begin(ZpSearch *s, ZpError *err) {
   if (status == ZP_OK) status = check_lists(s, err);
   if (status == ZP_OK) status = make_samples(s, err);
   if (status == ZP_OK) status = check_samples(s, err);
-  if (status == ZP_OK) name_goals(s);
   return status == ZP_OK ? zp_scenario_def(s->samples, 0, &s->def, err) : status;
 }
 

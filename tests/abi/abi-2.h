@@ -563,6 +563,7 @@ typedef struct ZpOptimum {
   size_t objectives;
   const char *const *constraint;
   size_t constraints;
+  const char *const *statistic;
   const double *value;
   const int *variable;
   size_t variables;
