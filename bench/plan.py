@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Synthetic benches for study plan: how many measurements on an even grid tell as much as a few planned ones?
 
-    bench/plan.py COMMAND [COUNT [SEED]]
+    bench/plan.py COMMAND [COUNT [SEED]] [--best]
 
 Each bench is a random dry actuator with 21 nodes at rest or closing, of which two or three keys are unknown. It can measure
 one or two of: strokes under loads and voltages, pull-in voltages under loads, zip times under loads and voltages, with a
@@ -11,6 +11,8 @@ the list, and of two kinds half each. The least n counts whose error of all keys
 of the plan ("together"), and the least whose every key has an interval at most as wide as the plan's ("in each key"). "of
 the list": how many evenly spaced rows of the list do as well together, as study plan says itself. Grids end at a number of
 rows; where none is as good, that number counts.
+
+With --best the plan is made at the true values and may take rows repeatedly: a bound for what any plan can reach.
 """
 import argparse
 import csv
@@ -121,11 +123,14 @@ class Bench:
         each = [number(summary, key + "_planned_standard_error") / number(summary, key) for key in self.keys]
         return [summary["planned_relative_error"], *each]
 
-    def compare(self):
-        """=> errors of the plan, and rows of grids that are as good together and in each key, infinite where none is, and of
-        the list."""
+    def compare(self, best):
+        """=> errors of the plan, or of the best one, and rows of grids that are as good together and in each key, infinite
+        where none is, and of the list."""
         nominal = {key: KEYS[key][1] for key in self.keys}
-        summary, chosen = self.plan(self.listed(), nominal, self.number)
+        listed = self.listed()
+        if best:  # a best choice has about as many settings as keys, each as often as the others
+            listed = {kind: of * (self.number // len(self.keys)) for kind, of in listed.items()}
+        summary, chosen = self.plan(listed, self.true if best else nominal, self.number)
         planned = self.errors(chosen)
         together = each = math.inf
         before = None
@@ -169,13 +174,14 @@ def main():
     parser.add_argument("command")
     parser.add_argument("count", nargs="?", type=int, default=20)
     parser.add_argument("seed", nargs="?", type=int, default=1)
+    parser.add_argument("--best", action="store_true")
     given = parser.parse_args()
     ratios = []
     for seed in range(given.seed, given.seed + given.count):
         with tempfile.TemporaryDirectory() as folder:
             bench = Bench(os.path.abspath(given.command), folder, seed)
             start = os.times()
-            planned, together, each, listed = bench.compare()
+            planned, together, each, listed = bench.compare(given.best)
             spent = os.times().children_user - start.children_user
         name = ", ".join(sorted(bench.kinds))
         told = "  ".join(f"{key} {100 * error:.3g} %" for key, error in zip(bench.keys, planned[1:]))

@@ -225,7 +225,8 @@ def check_refusals(zipact, scratch):
              "optimize.variables=ribbon.width = 5 mm .. 9 mm; ribbon.width = 5 mm .. 9 mm": "twice", "segment_1.length=[0, 1 mm]": "takes one value",
              "optimize.objective=": "empty", "optimize.objective=least mass_kg": "write", "optimize.objective=min mass": "not an output of study limits", "optimize.constraints=travel_m = 3 mm": "write",
              "optimize.constraints=travel_m >= 3 kg": "not a length", "optimize.constraints=travel_m >= far": "not a number", "optimize.constraints=breakdown_margin >= 3 mm": "no unit",
-             "optimize.constraints=travl_m >= 3 mm": "travl_m is not an output", "optimize.constraints=max_load_kg.mean >= 3 g": "no key has a distribution"}
+             "optimize.constraints=travl_m >= 3 mm": "travl_m is not an output", "optimize.constraints=max_load_kg.mean >= 3 g": "no key has a distribution",
+             "optimize.constraints=max_load_kg.quantile_5 >= 3 g": "no statistic quantile_5; write one of mean, standard_deviation, min, quantile_05,"}
     for text, reason in wrong.items():
         run = zipact.run([*LIGHTEST, text], scratch / "refused")
         ok("%s: refused" % text, run.returncode == 2 and reason in run.stderr)

@@ -127,17 +127,35 @@ static ZpStatus read_bound(ZpGoal *goal, const ZpScalar *scalar, ZpError *err) {
                  reason.message);
 }
 
+static const ZpScalar *find_output(const ZpResult *result, const char *name, size_t length) {
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strncmp(result->scalar[i].name, name, length) == 0 && !result->scalar[i].name[length])
+      return result->scalar[i].timing ? NULL : &result->scalar[i];
+  return NULL;
+}
+
+/* A goal that is no output of the study; it may be one with a statistic that there is not. */
+static ZpStatus refuse_output(const char *key, const char *name, const ZpResult *result, ZpError *err) {
+  const char *point = strrchr(name, '.');
+  if (!point || !find_output(result, name, (size_t)(point - name)))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not an output of study %s; summary.json lists its outputs", key, name,
+                   zp_study_name(result->study));
+  char known[160] = "";
+  for (int k = 0; k < ZP_STATISTICS; k++) {
+    const size_t used = strlen(known);
+    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", zp_statistic_name[k]);
+  }
+  return zp_fail(err, ZP_BAD_INPUT, "%s: %s: there is no statistic %s; write one of %s", key, name, point + 1, known);
+}
+
 ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError *err) {
   for (size_t g = 0; g < problem->goals; g++) {
     const bool is_bound = g >= problem->objectives;
     const char *key = is_bound ? "optimize.constraints" : "optimize.objective";
-    size_t i = 0;
-    while (i < result->scalars && strcmp(result->scalar[i].name, problem->goal[g].output) != 0)
-      i++;
-    if (i == result->scalars || result->scalar[i].timing)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not an output of study %s; summary.json lists its outputs", key,
-                     problem->goal[g].output, zp_study_name(result->study));
-    ZpStatus status = is_bound ? read_bound(&problem->goal[g], &result->scalar[i], err) : ZP_OK;
+    const char *name = problem->goal[g].output;
+    const ZpScalar *output = find_output(result, name, strlen(name));
+    if (!output) return refuse_output(key, name, result, err);
+    ZpStatus status = is_bound ? read_bound(&problem->goal[g], output, err) : ZP_OK;
     if (status != ZP_OK) return status;
   }
   return ZP_OK;
