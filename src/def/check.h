@@ -70,6 +70,10 @@ int zp_key_next_field(int index);
 /* Has a key of a segment another value than its default? */
 bool zp_segment_key_given(const ZpActuatorDef *def, int index);
 
+/* Which keys are set => set: of which `def` gives another value than the default of its device, or a text; of a row,
+ * one of its keys is given. */
+void zp_def_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]);
+
 /* The first key of this row that has a value; -1: none. */
 int zp_instance_given(const ZpActuatorDef *def, int row);
 

@@ -109,6 +109,7 @@ int zp_key_count(void) {
 }
 
 const ZpKey *zp_key(int index) {
+  if (index >= 0 && index < KEY_COUNT) return &keys[index];
   const int row = zp_key_instance(index).row;
   return row < 0 ? NULL : &keys[row];
 }
@@ -275,6 +276,22 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
   }
   memcpy(&whole, field, sizeof whole);
   return whole;
+}
+
+/* Has a field this value, or is it an empty text? */
+static bool has_value(const ZpActuatorDef *def, const ZpKey *key, double plain) {
+  if (key->type == ZP_KEY_TEXT) return *((const char *)def + offset_of(key)) == 0;
+  const double value = number_of(def, key);
+  return value == plain || (isnan(value) && isnan(plain));
+}
+
+void zp_def_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]) {
+  const ZpDevice *device = zp_device_of(def->actuator.kind);
+  for (int i = 0; i < KEY_COUNT; i++)
+    set[i] = offset_of(&keys[i]) != NO_FIELD && !has_value(def, &keys[i], keys[i].def);
+  for (size_t k = 0; k < device->given_count; k++)
+    set[device->given[k].key] = !has_value(def, &keys[device->given[k].key], device->given[k].value);
+  zp_instances_find_set(def, set);
 }
 
 double zp_def_get(const ZpActuatorDef *def, int index) {

@@ -202,30 +202,66 @@ static double of_segment(const ZpActuatorDef *def, int index) {
   return value;
 }
 
-bool zp_segment_key_given(const ZpActuatorDef *def, int index) {
-  if (!zp_key_is_of_segment(index)) return false;
-  const double value = of_segment(def, index), plain = zp_key(index)->def;
+/* Does the number of a segment's key differ from its default? */
+static bool differs(const ZpActuatorDef *def, int index, double plain) {
+  const double value = of_segment(def, index);
   return value != plain && !(isnan(value) && isnan(plain));
+}
+
+bool zp_segment_key_given(const ZpActuatorDef *def, int index) {
+  return zp_key_is_of_segment(index) && differs(def, index, zp_key(index)->def);
+}
+
+/* Is no key of these segments given, as in most designs? Then all are like the first one. */
+static bool none_given(const ZpActuatorDef *def, const Kind *k) {
+  const size_t size = (size_t)rows_of(k) * sizeof(double);
+  const char *first = (const char *)def + field_of(k->first);
+  bool none = memcmp(first, first + size, (size_t)(k->most - 1) * size) == 0;
+  for (int row = k->rows.first; row < k->rows.end && none; row++)
+    none = !differs(def, zp_key_of_instance(row, 1), zp_key(row)->def);
+  return none;
+}
+
+/* The first key of segments from `index` on that is given; -1: none. */
+static int next_of_segments(const ZpActuatorDef *def, const Kind *k, int index) {
+  if (none_given(def, k)) return -1;
+  while (index < end_of(k) && !zp_segment_key_given(def, index))
+    index++;
+  return index < end_of(k) ? index : -1;
 }
 
 /* The first key of a kind from `index` on that has a value; -1: none. */
 static int next_given(const ZpActuatorDef *def, const Kind *k, int index) {
-  if (zp_key_is_of_segment(k->first)) {
-    while (index < end_of(k) && !zp_segment_key_given(def, index))
-      index++;
-    return index < end_of(k) ? index : -1;
-  }
+  if (zp_key_is_of_segment(k->first)) return next_of_segments(def, k, index);
   const size_t at = zp_instances_from(def, index);
   const int next = def->given && at < def->given->count ? def->given->value[at].key : -1;
   return next >= 0 && next < end_of(k) ? next : -1;
 }
 
+/* The first key of this row of segments that is given; -1: none. */
+static int given_of_segments(const ZpActuatorDef *def, const Kind *k, int row) {
+  if (none_given(def, k)) return -1;
+  const double plain = zp_key(row)->def;
+  for (int index = zp_key_of_instance(row, 1); index < end_of(k); index += rows_of(k))
+    if (differs(def, index, plain)) return index;
+  return -1;
+}
+
 int zp_instance_given(const ZpActuatorDef *def, int row) {
   const Kind *k = kind_of_row(row);
+  if (zp_key_is_of_segment(k->first)) return given_of_segments(def, k, row);
   int key = next_given(def, k, k->first);
   while (key >= 0 && zp_key_instance(key).row != row)
     key = next_given(def, k, key + 1);
   return key;
+}
+
+void zp_instances_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]) {
+  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++)
+    for (int row = k->rows.first; row < k->rows.end; row++)
+      set[row] = zp_key_is_of_segment(k->first) && given_of_segments(def, k, row) >= 0;
+  for (size_t i = 0; def->given && i < def->given->count; i++)
+    set[zp_key_instance(def->given->value[i].key).row] = true;
 }
 
 int zp_instance_next(const ZpActuatorDef *def, int index) {

@@ -12,6 +12,9 @@ ZpStatus zp_instances_set(ZpActuatorDef *def, int index, double value, ZpError *
 /* Take the keys of these rows away from a member. */
 ZpStatus zp_instances_take_away(ZpActuatorDef *def, int member, int first, int last, ZpError *err);
 
+/* Of each row => whether a key is given. */
+void zp_instances_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]);
+
 /* The place in def->given of the first value whose key is `index` or a later one; their number: there is none. */
 size_t zp_instances_from(const ZpActuatorDef *def, int index);
 

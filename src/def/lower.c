@@ -113,10 +113,20 @@ static bool is_driven(const ZpActuatorDef *ribbon, bool by_sign) {
   return any;
 }
 
+/* Has the lower ribbon a segment that the upper one does not have? */
+static bool has_own_segments(const ZpActuatorDef *def) {
+  static const ZpKeyGroup rows = ZP_KEY_GROUP(lower.segment_K);
+  bool own = false;
+  for (int row = rows.first; row < rows.end; row++)
+    own |= zp_instance_given(def, row) >= 0;
+  return own;
+}
+
 bool zp_def_drives(const ZpActuatorDef *def, bool by_sign) {
   if (is_driven(def, by_sign)) return true;
+  if (!zp_def_has(def, ZP_DEVICE_PAIR) || !has_own_segments(def)) return false;
   const ZpActuatorDef lower = zp_def_lower(def);
-  return zp_def_has(def, ZP_DEVICE_PAIR) && is_driven(&lower, by_sign);
+  return is_driven(&lower, by_sign);
 }
 
 ZpStatus zp_check_sign(const ZpActuatorDef *def, const char *key, double voltage, ZpError *err) {

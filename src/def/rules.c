@@ -15,28 +15,37 @@ static double value_of(const ZpActuatorDef *def, int key) {
   return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
 }
 
-/* The default of a key, for this device. */
-static double default_of(const ZpActuatorDef *def, int key) {
-  const ZpDevice *device = zp_device_of(def->actuator.kind);
-  for (size_t k = 0; k < device->given_count; k++)
-    if (device->given[k].key == key) return device->given[k].value;
-  return zp_key(key)->def;
+/* A Def that rules ask, with what many of them ask of it, found when the first one does. */
+typedef struct Subject {
+  const ZpActuatorDef *def;
+  bool knows_keys, knows_liquid;
+  bool set[ZP_KEYS]; /* zp_def_find_set */
+  ZpLiquidModel liquid;
+} Subject;
+
+static void begin(Subject *of, const ZpActuatorDef *def) {
+  of->def = def;
+  of->knows_keys = of->knows_liquid = false;
 }
 
-static bool is_set(const ZpActuatorDef *def, int key) {
-  if (zp_key_is_row(key)) return zp_instance_given(def, key) >= 0;
-  const char *text = zp_def_text(def, key);
-  if (text) return *text != 0;
-  double value = zp_def_get(def, key), plain = default_of(def, key);
-  return value != plain && !(isnan(value) && isnan(plain));
+static bool is_set(Subject *of, int key) {
+  if (!of->knows_keys) zp_def_find_set(of->def, of->set);
+  of->knows_keys = true;
+  return of->set[key];
+}
+
+static double liquid_of(Subject *of) {
+  if (!of->knows_liquid) of->liquid = zp_def_liquid(of->def);
+  of->knows_liquid = true;
+  return (double)of->liquid;
 }
 
 /* The key of a condition; of a range the first that is set, or -1. */
-static int key_of(const ZpCondition *c, const ZpActuatorDef *def) {
-  if (c->test == ZP_TEST_SEVERAL && zp_def_parallel(def)) return ZP_KEY(stack.parallel);
+static int key_of(const ZpCondition *c, Subject *of) {
+  if (c->test == ZP_TEST_SEVERAL && zp_def_parallel(of->def)) return ZP_KEY(stack.parallel);
   if (c->test != ZP_TEST_SET_WITHIN) return c->key;
   for (int key = c->key; key <= (int)c->value; key++)
-    if (is_set(def, key)) return key;
+    if (is_set(of, key)) return key;
   return -1;
 }
 
@@ -62,18 +71,19 @@ static bool holds_for(const ZpCondition *c, double value) {
   }
 }
 
-static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
+static bool holds(const ZpCondition *c, Subject *of) {
+  const ZpActuatorDef *def = of->def;
   switch (c->test) {
   case ZP_TEST_ANY:
     return true;
   case ZP_TEST_NEVER:
     return false;
   case ZP_TEST_SET:
-    return is_set(def, c->key);
+    return is_set(of, c->key);
   case ZP_TEST_UNSET:
-    return !is_set(def, c->key);
+    return !is_set(of, c->key);
   case ZP_TEST_SET_WITHIN:
-    return key_of(c, def) >= 0;
+    return key_of(c, of) >= 0;
   case ZP_TEST_SEVERAL:
     return zp_def_members(def) > 1 || zp_def_network(def);
   case ZP_TEST_NETWORK:
@@ -85,19 +95,25 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
   case ZP_TEST_PLANE:
     return zp_def_plane(def);
   default:
-    return holds_for(c, value_of(def, c->key));
+    return holds_for(c, c->key == ZP_KEY(liquid.model) ? liquid_of(of) : value_of(def, c->key));
   }
 }
 
 /* -- the checker ----------------------------------------------------------------------------------- */
 
-const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def) {
+static const ZpRule *find_among(const ZpRules *rules, bool in_motion, Subject *of) {
   for (size_t k = 0; k < rules->count; k++) {
     const ZpRule *rule = &rules->rule[k];
-    if (rule->in_motion == in_motion && holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def))
+    if (rule->in_motion == in_motion && holds(&rule->when, of) && holds(&rule->also, of) && !holds(&rule->needs, of))
       return rule;
   }
   return NULL;
+}
+
+const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def) {
+  Subject of;
+  begin(&of, def);
+  return find_among(rules, in_motion, &of);
 }
 
 static const ZpRules *const *const owners[] = {
@@ -108,33 +124,39 @@ static const ZpRules *const *const owners[] = {
 enum { OWNERS = sizeof owners / sizeof owners[0] };
 
 const ZpRule *zp_rule_refusing(bool in_motion, const ZpActuatorDef *def) {
+  Subject of;
   const ZpRule *found = NULL;
+  begin(&of, def);
   for (size_t k = 0; k < OWNERS; k++)
-    for (const ZpRules *const *of = owners[k]; *of && !found; of++)
-      found = zp_rules_find(*of, in_motion, def);
+    for (const ZpRules *const *rules = owners[k]; *rules && !found; rules++)
+      found = find_among(*rules, in_motion, &of);
   return found;
 }
 
 int zp_key_without_use(const ZpActuatorDef *def, int first, int last) {
+  Subject subject;
   int least = last + 1;
+  begin(&subject, def);
   for (size_t k = 0; k < OWNERS; k++)
     for (const ZpRules *const *of = owners[k]; *of; of++)
       for (size_t i = 0; i < (*of)->count; i++) {
         const ZpRule *rule = &(*of)->rule[i];
         const bool asks = rule->when.test == ZP_TEST_SET && rule->when.key >= first && rule->when.key < least;
-        if (asks && holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def))
+        if (asks && holds(&rule->when, &subject) && holds(&rule->also, &subject) && !holds(&rule->needs, &subject))
           least = rule->when.key;
       }
   return least <= last ? least : -1;
 }
 
 const ZpRule *zp_rule_against(int key, int choice, const ZpActuatorDef *def) {
+  Subject subject;
+  begin(&subject, def);
   for (size_t k = 0; k < OWNERS; k++)
     for (const ZpRules *const *of = owners[k]; *of; of++)
       for (size_t i = 0; i < (*of)->count; i++) {
         const ZpRule *rule = &(*of)->rule[i];
         bool asks = rule->when.key == key && holds_for(&rule->when, choice);
-        if (asks && holds(&rule->also, def) && !holds(&rule->needs, def)) return rule;
+        if (asks && holds(&rule->also, &subject) && !holds(&rule->needs, &subject)) return rule;
       }
   return NULL;
 }
@@ -218,7 +240,9 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
 
 /* "load.stiffness = 5 N/m" */
 static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[WORDS]) {
-  int key = key_of(c, def);
+  Subject subject;
+  begin(&subject, def);
+  int key = key_of(c, &subject);
   char value[VALUE];
   bool unequal = zp_def_parallel(def) && c->test == ZP_TEST_SEVERAL;
   if (zp_def_network(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_NETWORK)) {
