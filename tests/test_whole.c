@@ -405,7 +405,7 @@ TESTS(unlike_ribbons_bend_in_series, 0, 2) {
   ZpError err;
   ck_assert_int_eq(zp_rest_create(model, &rest, &err), ZP_OK);
   ck_assert(zp_rest_hang(rest, 0));
-  ZpActuatorDef lower = zp_def_lower(&def);
+  ZpActuatorDef room, lower = *zp_def_lower(&def, &room);
   Strip top = strip_of(&def), bottom = strip_of(&lower);
   double L = model->L, F = 0.5 * def.load.mass * def.gravity, on_top = F + bottom.q * L;
   double sinks = F * L * L * L / 12 / bottom.EI + bottom.q * L * L * L * L / 24 / bottom.EI;
@@ -421,7 +421,7 @@ TEST(unlike_ribbons_swing_in_series) {
   ZpActuatorDef def = DEF(THICK, {"load.mass", 10}, {"gravity", 0}, {"solver.tolerance", 3.5e-6});
   ZpModel *model = unlike(&def);
   ZpSim *sim = sim_of(model);
-  ZpActuatorDef lower = zp_def_lower(&def);
+  ZpActuatorDef room, lower = *zp_def_lower(&def, &room);
   Strip top = strip_of(&def), bottom = strip_of(&lower);
   double L = model->L, M = 0.5 * def.load.mass, k = 12 / (L * L * L * (1 / top.EI + 1 / bottom.EI)), speed = 1e-4;
   double *v = zp_state_v(model, sim->state), quarter = 0.5 * 3.14159265358979323846 / sqrt(k / M);

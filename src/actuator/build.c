@@ -33,9 +33,10 @@ bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *r
             {ZP_KEY(insulator.thickness), TAPE, ZP_LAYER_THICKNESS},
             {ZP_KEY(insulator.young_modulus), TAPE, ZP_LAYER_MODULUS},
             {ZP_KEY(insulator.density), TAPE, ZP_LAYER_DENSITY}};
-  const ZpActuatorDef def = ribbon > 0 ? zp_def_lower(&model->def) : model->def;
+  ZpActuatorDef room;
+  const ZpActuatorDef *def = ribbon > 0 ? zp_def_lower(&model->def, &room) : &model->def;
   const ZpSection section = zp_ribbon_section(model, ribbon);
-  const double w = def.ribbon.width;
+  const double w = def->ribbon.width;
   ZpLayer layer[LAYERS];
   key = zp_def_key_of_ribbon(&model->def, ribbon > 0, key);
   *rate = (ZpSection){0};
@@ -43,10 +44,10 @@ bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *r
   if (key == ZP_KEY(ribbon.width))
     *rate = (ZpSection){.EA = section.EA / w, .EI = section.EI / w, .mu = section.mu / w};
   if (key == ZP_KEY(ribbon.width)) return true;
-  layers_of(&def, def.ribbon.thickness, layer);
+  layers_of(def, def->ribbon.thickness, layer);
   for (size_t k = 0; model->ribbon[ribbon].places == 1 && k < sizeof of / sizeof of[0]; k++)
     if (key == of[k].key) {
-      *rate = zp_section_by(layer, LAYERS, w, def.ribbon.plane != ZP_PLANE_STRESS, of[k].layer, of[k].by);
+      *rate = zp_section_by(layer, LAYERS, w, def->ribbon.plane != ZP_PLANE_STRESS, of[k].layer, of[k].by);
       return true;
     }
   return false;
@@ -607,18 +608,18 @@ static void fill_face(ZpModel *model, Arrays *a) {
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
   if (!model->def.ribbon.plasticity) return;
-  ZpActuatorDef lower = zp_def_lower(&model->def);
+  ZpActuatorDef room;
   model->plastic[0] = plastic_of(&model->def);
-  model->plastic[1] = plastic_of(&lower);
+  model->plastic[1] = plastic_of(zp_def_lower(&model->def, &room));
   model->rod.plastic = model->plastic;
 }
 
 /* Its layers may creep. */
 static void fill_branches(ZpModel *model) {
-  ZpActuatorDef lower = zp_def_lower(&model->def);
+  ZpActuatorDef room;
   if (!zp_def_creeps(&model->def) || !model->is_rod) return;
   find_branches(&model->def, model->branch);
-  find_branches(&lower, model->branch + ZP_BRANCHES);
+  find_branches(zp_def_lower(&model->def, &room), model->branch + ZP_BRANCHES);
   model->rod.branch = model->branch;
 }
 
@@ -868,10 +869,11 @@ static void derive(ZpModel *model) {
   model->L = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
   if (zp_def_has(def, ZP_DEVICE_RIGID)) model->L = def->plate.gap;
   model->l = model->L / fmax((double)zp_half_elements(t), 1);
-  ZpActuatorDef lower = zp_def_lower(def);
+  ZpActuatorDef room;
+  const ZpActuatorDef *lower = zp_def_lower(def, &room);
   model->ribbon[0] = ribbon_of(def, 1);
-  model->ribbon[1] = ribbon_of(&lower, -1);
-  model->series = series_of(def, &lower);
+  model->ribbon[1] = ribbon_of(lower, -1);
+  model->series = series_of(def, lower);
   find_fall(model);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->hinge = hinge_of(model);
@@ -882,7 +884,7 @@ static void derive(ZpModel *model) {
   model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;
-  model->faces = faces_of(model, &lower);
+  model->faces = faces_of(model, lower);
   model->film = film_of(model);
   model->has_film = model->field && zp_def_liquid(def) != ZP_LIQUID_NONE;
   model->has_bead = model->has_film && zp_def_liquid(def) == ZP_LIQUID_BEAD;
@@ -960,13 +962,14 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
  * tenth of their gap, far beyond pull-in. */
 static void put_over_plate(const ZpModel *model, ZpEdgeParams *params) {
   static const double tenth = 0.1;
-  const ZpActuatorDef lower = zp_def_lower(&model->def);
+  ZpActuatorDef room;
+  const ZpActuatorDef *lower = zp_def_lower(&model->def, &room);
   double least = model->flat ? INFINITY : model->def.plate.gap;
   for (size_t i = 0; model->flat && i < model->nodes; i++)
     least = fmin(least, model->plates.face[i]);
   params->plate = true;
-  params->plate_t = lower.insulator.thickness;
-  params->plate_eps = lower.insulator.permittivity;
+  params->plate_t = lower->insulator.thickness;
+  params->plate_eps = lower->insulator.permittivity;
   params->least = tenth * least;
 }
 

@@ -161,8 +161,9 @@ int zp_key_distance(const char *name, const char *key);
 /* Conditions of liquid.model bead on other keys, whatever liquid.model is. Where they fail, auto means none. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 
-/* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives. */
-ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
+/* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives, in `room`, or `def` itself if it
+ * gives none. */
+const ZpActuatorDef *zp_def_lower(const ZpActuatorDef *def, ZpActuatorDef *room);
 
 /* The key of the Def of ribbon 0, the upper or only one, or 1, the lower one, that changes with `key` of `def`; -1:
  * none. */

@@ -593,8 +593,8 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   if (given && def->plate.mass == 0)
     return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
   if (given) return ZP_OK;
-  ZpActuatorDef lower = zp_def_lower(def);
-  const ZpActuatorDef *of[] = {def, &lower};
+  ZpActuatorDef room;
+  const ZpActuatorDef *of[] = {def, zp_def_lower(def, &room)};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
   for (int k = 0; k < 2; k++)
     if (of[k]->ribbon.density == 0 &&

@@ -26,11 +26,15 @@ static int key_of_upper(int key) {
   return key >= lower_keys.first && key < lower_keys.end ? zp_key_find(zp_key(key)->name + sizeof prefix - 1) : -1;
 }
 
-ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
-  ZpActuatorDef lower = *def;
+const ZpActuatorDef *zp_def_lower(const ZpActuatorDef *def, ZpActuatorDef *room) {
+  const ZpActuatorDef *lower = def;
   for (int key = lower_keys.first; key >= 0 && zp_key_instance(key).row < lower_keys.end;
-       key = zp_def_next_key(def, key))
-    if (is_given(def, key)) zp_def_set(&lower, key_of_upper(key), zp_def_get(def, key), NULL);
+       key = zp_def_next_key(def, key)) {
+    if (!is_given(def, key)) continue;
+    if (lower == def) *room = *def;
+    lower = room;
+    zp_def_set(room, key_of_upper(key), zp_def_get(def, key), NULL);
+  }
   return lower;
 }
 
@@ -125,8 +129,8 @@ static bool has_own_segments(const ZpActuatorDef *def) {
 bool zp_def_drives(const ZpActuatorDef *def, bool by_sign) {
   if (is_driven(def, by_sign)) return true;
   if (!zp_def_has(def, ZP_DEVICE_PAIR) || !has_own_segments(def)) return false;
-  const ZpActuatorDef lower = zp_def_lower(def);
-  return is_driven(&lower, by_sign);
+  ZpActuatorDef room;
+  return is_driven(zp_def_lower(def, &room), by_sign);
 }
 
 ZpStatus zp_check_sign(const ZpActuatorDef *def, const char *key, double voltage, ZpError *err) {
@@ -160,13 +164,14 @@ static ZpStatus check_tension(const ZpActuatorDef *def, ZpError *err) {
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
   double flexible = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
-  ZpActuatorDef lower = zp_def_lower(def);
+  ZpActuatorDef room;
+  const ZpActuatorDef *lower = zp_def_lower(def, &room);
   ZpStatus status = check_signs(def, err);
   if (status == ZP_OK) status = check_tension(def, err);
   if (status == ZP_OK) status = check_segments(def, "", flexible, err);
-  if (status == ZP_OK) status = check_segments(&lower, prefix, flexible, err);
+  if (status == ZP_OK) status = check_segments(lower, prefix, flexible, err);
   if (status == ZP_OK) status = check_turns(def, "", flexible, err);
-  return status == ZP_OK ? check_turns(&lower, prefix, flexible, err) : status;
+  return status == ZP_OK ? check_turns(lower, prefix, flexible, err) : status;
 }
 
 /* -- rules ----------------------------------------------------------------------------------------- */

@@ -69,11 +69,12 @@ typedef struct Rate {
 
 /* Of the insulator of one ribbon. */
 static double offset_by_insulator(const ZpModel *model, int ribbon, int key) {
-  const ZpActuatorDef def = ribbon ? zp_def_lower(&model->def) : model->def;
-  const double t = def.insulator.thickness, eps = def.insulator.permittivity;
+  ZpActuatorDef room;
+  const ZpActuatorDef *def = ribbon ? zp_def_lower(&model->def, &room) : &model->def;
+  const double t = def->insulator.thickness, eps = def->insulator.permittivity;
   key = zp_def_key_of_ribbon(&model->def, ribbon, key);
-  return key == ZP_KEY(insulator.thickness)      ? def.medium.permittivity / eps
-         : key == ZP_KEY(insulator.permittivity) ? -def.medium.permittivity * t / (eps * eps)
+  return key == ZP_KEY(insulator.thickness)      ? def->medium.permittivity / eps
+         : key == ZP_KEY(insulator.permittivity) ? -def->medium.permittivity * t / (eps * eps)
                                                  : 0;
 }
 
