@@ -296,9 +296,10 @@ void zp_def_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]) {
 
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = zp_key(index);
-  if (def && key && index >= KEY_COUNT) return zp_instances_get(def, index);
-  if (def && zp_key_is_row(index)) return key->def;
-  return def && key && has_field(key) ? number_of(def, key) : (double)NAN;
+  if (!def || !key) return NAN;
+  if (index >= KEY_COUNT) return zp_instances_get(def, index);
+  if (zp_key_is_row(index)) return key->def;
+  return offset_of(key) != NO_FIELD ? number_of(def, key) : (double)NAN;
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
@@ -706,15 +707,15 @@ static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
  * the full check. */
 static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
   if (key->type == ZP_KEY_TEXT) return *((const char *)def + offset_of(key)) == 0;
-  double value = number_of(def, key);
-  return key->type != ZP_KEY_BOOL && value >= key->min && value <= key->max;
+  const double value = number_of(def, key);
+  return (value >= key->min && value <= key->max) || (key->type == ZP_KEY_REAL_AUTO && isnan(value));
 }
 
+/* Keys of members and so on have been checked when they were set. */
 static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (int i = 0; i < KEY_COUNT && status == ZP_OK;
-       i++) { /* those of members and so on have been checked when they were set */
-    if (!has_field(&keys[i]) || is_in_range(def, &keys[i])) continue;
+  for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) {
+    if (offset_of(&keys[i]) == NO_FIELD || is_in_range(def, &keys[i]) || zp_key_is_row(i)) continue;
     status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + offset_of(&keys[i]), err)
                                          : check_value(i, zp_def_get(def, i), err);
   }

@@ -257,9 +257,11 @@ int zp_instance_given(const ZpActuatorDef *def, int row) {
 }
 
 void zp_instances_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]) {
-  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++)
+  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++) {
+    const bool any = zp_key_is_of_segment(k->first) && !none_given(def, k);
     for (int row = k->rows.first; row < k->rows.end; row++)
-      set[row] = zp_key_is_of_segment(k->first) && given_of_segments(def, k, row) >= 0;
+      set[row] = any && given_of_segments(def, k, row) >= 0;
+  }
   for (size_t i = 0; def->given && i < def->given->count; i++)
     set[zp_key_instance(def->given->value[i].key).row] = true;
 }
