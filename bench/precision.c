@@ -2,6 +2,7 @@
  *
  *   precision swing        a cantilever's swing, against the converged one of cli/swing.def => CSV
  *   precision zip          the default actuator's zip, against implicit steps at 1e-6       => CSV
+ *   precision cost         rest, limits and zip with each mechanics: CPU time and error     => CSV
  *   precision tolerance    zip times of some actuators, by solver.tolerance                  => a table
  *   precision reference    the converged swing                                              => cli/swing.def
  */
@@ -171,14 +172,122 @@ static int print_tolerances(void) {
   return EXIT_SUCCESS;
 }
 
+/* -- cost against error, with each mechanics ---------------------------------------------------------- */
+
+typedef struct Mechanics {
+  const char *name;
+  ZpRibbonModel model;
+  ZpIntegrator integrator;
+} Mechanics;
+
+static const Mechanics mechanics[] = {{"rod", ZP_RIBBON_ROD, ZP_INTEGRATOR_IMPLICIT},
+                                      {"mass_spring", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_IMPLICIT},
+                                      {"rod explicit", ZP_RIBBON_ROD, ZP_INTEGRATOR_EXPLICIT},
+                                      {"mass_spring explicit", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_EXPLICIT}};
+
+enum { MECHANICS = sizeof mechanics / sizeof mechanics[0], AT_REST = 2 };
+
+/* A study of which one number is compared with the converged one. */
+typedef struct Problem {
+  const char *name, *number;
+  ZpStudy study;
+  int nodes[8], repeats; /* of nodes: 0: no more; a cost is the least of so many runs */
+  int reference;         /* nodes of the rod that stands for the converged one; 0: the value below */
+  double converged;      /* SI */
+} Problem;
+
+static const Problem problems[] = {
+    {"rest", "stroke_m", ZP_STUDY_STATIONARY, {7, 9, 11, 14, 21, 33, 61, 121}, 200, 0, 17.942e-3}, /* exact elastica */
+    {"limits", "pull_in_voltage_V", ZP_STUDY_LIMITS, {11, 15, 21, 31, 41, 61, 81, 121}, 5, 481, 0},
+    {"zip", "zip_time_s", ZP_STUDY_ACTUATE, {11, 15, 21, 31, 41, 61, 81}, 3, 241, 0}};
+
+/* The guided strip with 61 g that hangs from straight; the default actuator without liquid and damping. */
+static ZpStatus cost_def(const Problem *p, const Mechanics *m, int nodes, ZpActuatorDef *def, ZpError *err) {
+  const bool strip = p->study == ZP_STUDY_STATIONARY;
+  const struct {
+    const char *key;
+    double value;
+  } setting[] = {{"ribbon.model", m->model},
+                 {"solver.integrator", m->integrator},
+                 {"mesh.nodes", nodes},
+                 {"liquid.model", ZP_LIQUID_NONE},
+                 {"damping.internal", 0},
+                 {"output.errors", 0},
+                 {"solver.stop_when_zipped", ZP_WHEN_TRUE},
+                 {"actuator.kind", ZP_KIND_RIBBON}, /* of the strip, from here on */
+                 {"ribbon.length", 45e-3},
+                 {"ribbon.thickness", 100e-6},
+                 {"ribbon.plane", ZP_PLANE_STRESS},
+                 {"load.mass", 61e-3}};
+  enum { ALL = sizeof setting / sizeof setting[0], OF_STRIP = 5 };
+  ZpAssignment list[ALL];
+  for (size_t k = 0; k < ALL; k++)
+    list[k] = (ZpAssignment){zp_key_find(setting[k].key), setting[k].value};
+  return zp_def_resolve(def, list, strip ? ALL : ALL - OF_STRIP, err);
+}
+
+/* The number, NAN where there is none, and the least CPU time of some runs, s. */
+static ZpStatus measure(const Problem *p, const ZpActuatorDef *def, int repeats, double *number, double *least,
+                        ZpError *err) {
+  *least = INFINITY;
+  for (int k = 0; k < repeats; k++) {
+    ZpResult *result = NULL;
+    const double start = motion_clock();
+    ZpStatus status = zp_study_run(p->study, def, NULL, NULL, &result, err);
+    *least = fmin(*least, motion_clock() - start);
+    if (status == ZP_OK) *number = zp_result_get(result, p->number);
+    zp_result_destroy(result);
+    if (status != ZP_OK) return status;
+  }
+  return ZP_OK;
+}
+
+static ZpStatus converged_of(const Problem *p, double *number, ZpError *err) {
+  ZpActuatorDef def = {0};
+  double unused;
+  *number = p->converged;
+  if (p->reference == 0) return ZP_OK;
+  ZpStatus status = cost_def(p, &mechanics[0], p->reference, &def, err);
+  if (p->study == ZP_STUDY_ACTUATE) def.solver.tolerance = 1e-5;
+  return status == ZP_OK ? measure(p, &def, 1, number, &unused, err) : status;
+}
+
+static ZpStatus print_costs_of(const Problem *p, ZpError *err) {
+  double converged, number = NAN, seconds;
+  ZpStatus status = converged_of(p, &converged, err);
+  const size_t kinds = p->study == ZP_STUDY_ACTUATE ? MECHANICS : AT_REST;
+  for (size_t m = 0; m < kinds; m++)
+    for (size_t n = 0; n < sizeof p->nodes / sizeof p->nodes[0] && p->nodes[n] > 0 && status == ZP_OK; n++) {
+      const bool implicit = mechanics[m].integrator == ZP_INTEGRATOR_IMPLICIT;
+      ZpActuatorDef def = {0};
+      status = cost_def(p, &mechanics[m], p->nodes[n], &def, err);
+      if (status == ZP_OK) status = measure(p, &def, implicit ? p->repeats : 1, &number, &seconds, err);
+      if (status != ZP_OK) break;
+      printf("%s,%s,%d,%.4g,%.4g\n", p->name, mechanics[m].name, p->nodes[n], 1e3 * seconds,
+             fabs(number / converged - 1));
+      fflush(stdout);
+    }
+  return status;
+}
+
+static int print_costs(void) {
+  ZpError err;
+  ZpStatus status = ZP_OK;
+  printf("problem,mechanics,nodes,cpu_ms,error\n");
+  for (size_t k = 0; k < sizeof problems / sizeof problems[0] && status == ZP_OK; k++)
+    status = print_costs_of(&problems[k], &err);
+  return status == ZP_OK ? EXIT_SUCCESS : fail(&err);
+}
+
 int main(int argc, char **argv) {
   static const Case swing = {motion_swing, {9, 11, 13, 15, 18, 21, 61}, 6.05e-3},
                     zip = {motion_zip, {21, 61, 130}, 20.7e-3};
   const char *word = argc == 2 ? argv[1] : "";
   if (strcmp(word, "swing") == 0) return print_case(&swing, false);
   if (strcmp(word, "zip") == 0) return print_case(&zip, true);
+  if (strcmp(word, "cost") == 0) return print_costs();
   if (strcmp(word, "tolerance") == 0) return print_tolerances();
   if (strcmp(word, "reference") == 0) return print_reference(801, 4e-6);
-  fprintf(stderr, "precision: say swing, zip, tolerance or reference\n");
+  fprintf(stderr, "precision: say swing, zip, cost, tolerance or reference\n");
   return EXIT_FAILURE;
 }
