@@ -5,14 +5,14 @@
 
 Each bench is a random dry actuator with 21 nodes at rest or closing, of which two or three keys are unknown. It can measure
 one or two of: strokes under loads and voltages, pull-in voltages under loads, zip times under loads and voltages, with a
-standard deviation each, and a setting several times. The plan is made at values of the keys that are up to 15 % wrong;
-planned rows and even grids are then judged at the true ones. A grid of n rows has as many loads as voltages, as nearly as n
-allows, its ends are those of the list, and of two kinds half each. The least n counts whose error of all keys together (the
-criterion D) is at most that of the plan ("together"), and the least whose every key has an interval at most as wide as the
-plan's ("in each key"). "of the list": how many evenly spaced rows of the list do as well together, as study plan says
-itself. Grids end at a number of rows; where none is as good, that number counts.
+standard deviation each. The plan is made at values of the keys that are up to 15 % wrong; planned rows and even grids are
+then judged at the true ones. A grid of n rows has as many loads as voltages, as nearly as n allows, its ends are those of
+the list, and of two kinds half each. The least n counts whose error of all keys together (the criterion D) is at most that
+of the plan ("together"), and the least whose every key has an interval at most as wide as the plan's ("in each key"). "of
+the list": how many evenly spaced rows of the list do as well together, as study plan says itself. Grids end at a number of
+rows; where none is as good, that number counts.
 
-With --best the plan is made at the true values: a bound for what any plan can reach.
+With --best the plan is made at the true values and may take rows repeatedly: a bound for what any plan can reach.
 """
 import argparse
 import csv
@@ -80,9 +80,8 @@ class Bench:
         return [(load, voltage) for load in spread(*self.loads, loads) for voltage in spread(*self.voltages[kind], voltages)]
 
     def listed(self):
-        """The rows among which the plan chooses, by kind. The best choice has about as many settings as keys, each as often
-        as the others, so each row stands in the list as often as that."""
-        return {kind: self.grid(kind, *KINDS[kind][4]) * (self.number // len(self.keys)) for kind in self.kinds}
+        """The rows among which the plan chooses, by kind."""
+        return {kind: self.grid(kind, *KINDS[kind][4]) for kind in self.kinds}
 
     def even(self, number):
         """A grid of at most so many rows, by kind."""
@@ -128,7 +127,10 @@ class Bench:
         """=> errors of the plan, or of the best one, and rows of grids that are as good together and in each key, infinite
         where none is, and of the list."""
         nominal = {key: KEYS[key][1] for key in self.keys}
-        summary, chosen = self.plan(self.listed(), self.true if best else nominal, self.number)
+        listed = self.listed()
+        if best:  # a best choice has about as many settings as keys, each as often as the others
+            listed = {kind: of * (self.number // len(self.keys)) for kind, of in listed.items()}
+        summary, chosen = self.plan(listed, self.true if best else nominal, self.number)
         planned = self.errors(chosen)
         together = each = math.inf
         before = None

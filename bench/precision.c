@@ -181,9 +181,9 @@ typedef struct Mechanics {
 } Mechanics;
 
 static const Mechanics mechanics[] = {{"rod", ZP_RIBBON_ROD, ZP_INTEGRATOR_IMPLICIT},
-                                      {"mass_spring", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_IMPLICIT},
+                                      {"mass-spring", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_IMPLICIT},
                                       {"rod explicit", ZP_RIBBON_ROD, ZP_INTEGRATOR_EXPLICIT},
-                                      {"mass_spring explicit", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_EXPLICIT}};
+                                      {"mass-spring explicit", ZP_RIBBON_MASS_SPRING, ZP_INTEGRATOR_EXPLICIT}};
 
 enum { MECHANICS = sizeof mechanics / sizeof mechanics[0], AT_REST = 2 };
 

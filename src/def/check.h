@@ -67,8 +67,8 @@ bool zp_key_is_of_segment(int index);
 /* The next key whose value a Def holds in a field, a row or a segment's; -1: there is none. Start from -1. */
 int zp_key_next_field(int index);
 
-/* Has a key of a segment another value than its default? */
-bool zp_segment_key_given(const ZpActuatorDef *def, int index);
+/* The first key of a segment after `index` whose value is not its default; -1: there is none. Start from -1. */
+int zp_segment_key_next(const ZpActuatorDef *def, int index);
 
 /* Which keys are set => set: of which `def` gives another value than the default of its device, or a text; of a row,
  * one of its keys is given. */

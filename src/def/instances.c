@@ -208,10 +208,6 @@ static bool differs(const ZpActuatorDef *def, int index, double plain) {
   return value != plain && !(isnan(value) && isnan(plain));
 }
 
-bool zp_segment_key_given(const ZpActuatorDef *def, int index) {
-  return zp_key_is_of_segment(index) && differs(def, index, zp_key(index)->def);
-}
-
 /* Is no key of these segments given, as in most designs? Then all are like the first one. */
 static bool none_given(const ZpActuatorDef *def, const Kind *k) {
   const size_t size = (size_t)rows_of(k) * sizeof(double);
@@ -225,9 +221,16 @@ static bool none_given(const ZpActuatorDef *def, const Kind *k) {
 /* The first key of segments from `index` on that is given; -1: none. */
 static int next_of_segments(const ZpActuatorDef *def, const Kind *k, int index) {
   if (none_given(def, k)) return -1;
-  while (index < end_of(k) && !zp_segment_key_given(def, index))
+  while (index < end_of(k) && !differs(def, index, zp_key(index)->def))
     index++;
   return index < end_of(k) ? index : -1;
+}
+
+int zp_segment_key_next(const ZpActuatorDef *def, int index) {
+  const Kind *upper = &kind[ZP_OF_SEGMENT], *lower = &kind[ZP_OF_LOWER_SEGMENT];
+  const int from = index < SEGMENTS ? SEGMENTS : index + 1;
+  const int next = from < end_of(upper) ? next_of_segments(def, upper, from) : -1;
+  return next >= 0 ? next : next_of_segments(def, lower, from < lower->first ? lower->first : from);
 }
 
 /* The first key of a kind from `index` on that has a value; -1: none. */

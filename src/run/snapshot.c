@@ -236,13 +236,13 @@ static ZpStatus walk_keys(ZpPack *p, const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus walk_segments(ZpPack *p, const ZpActuatorDef *def, ZpError *err) {
   size_t mine = 0;
   ZpStatus status = ZP_OK;
-  for (int i = ZP_KEYS; i >= 0; i = zp_key_next_field(i))
-    mine += zp_segment_key_given(def, i);
+  for (int i = zp_segment_key_next(def, -1); i >= 0; i = zp_segment_key_next(def, i))
+    mine++;
   size_t count = mine;
   zp_pack_field(p, "segments", ZP_SIZE, &count, 1);
   if (count != mine) return zp_fail(err, ZP_BAD_INPUT, "of another model: it has other segments");
-  for (int i = ZP_KEYS; i >= 0 && status == ZP_OK; i = zp_key_next_field(i))
-    if (zp_segment_key_given(def, i)) status = walk_value(p, def, i, err);
+  for (int i = zp_segment_key_next(def, -1); i >= 0 && status == ZP_OK; i = zp_segment_key_next(def, i))
+    status = walk_value(p, def, i, err);
   return status;
 }
 
