@@ -18,6 +18,9 @@ table.writerows(rows)' >bench.csv
 ./campaign.py "$build" >campaign.csv
 ./meter.py "$build" >meter.csv
 gnuplot meter.gp
+"$build/precision" cost >cost.csv
+gnuplot cost.gp
+./model.py "$build/zipact" >model.csv
 for motion in swing zip; do
   "$build/precision" $motion >$motion.csv
   gnuplot -e "motion='$motion'" precision.gp
