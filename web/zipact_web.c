@@ -373,16 +373,17 @@ static double middle_of(const ZpWeb *web, int member) {
  * the electrodes over that of the ribbons. */
 EXPORT const double *zp_web_member(ZpWeb *web, int member) {
   const ZpModel *model = web->model + member;
-  const ZpActuatorDef *def = &model->def, lower = zp_def_lower(def);
+  ZpActuatorDef room;
+  const ZpActuatorDef *def = &model->def, *lower = zp_def_lower(def, &room);
   const ZpEnds *ends = &web->model->network->ends[member];
   const bool film = isnan(def->insulator.thickness); /* which is its own insulator */
   const double values[MEMBER_NUMBERS] = {own_signal(web, member, "voltage"),
                                          own_signal(web, member, "opening"),
                                          zp_model_get(model, "insulator_offset"),
                                          zp_insulator_thickness(def),
-                                         zp_insulator_thickness(&lower),
+                                         zp_insulator_thickness(lower),
                                          film ? 0 : def->ribbon.thickness,
-                                         film ? 0 : lower.ribbon.thickness,
+                                         film ? 0 : lower->ribbon.thickness,
                                          def->ribbon.length,
                                          def->platform.length,
                                          def->platform.electrode,
