@@ -275,6 +275,23 @@ TEST(test_another_model) {
   }
 }
 
+/* A later segment alone is another; of both ribbons. */
+TESTS(test_another_segment, 0, 2) {
+  static const char *const name[] = {"segment_2.length", "lower.segment_2.length"};
+  ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
+  ZpModel *model = model_of(&def), *changed = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(changed);
+  unsigned char *saved = memory_of(1 << 16);
+  ZpError err;
+  for (int i = 0; i < 2; i++)
+    ck_assert_int_eq(zp_def_set(i ? &changed->def : &model->def, zp_key_find("segment_1.length"), 5e-3, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set(&model->def, zp_key_find(name[_i]), 6e-3, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set(&changed->def, zp_key_find(name[_i]), 7e-3, NULL), ZP_OK);
+  zp_sim_save(other, saved);
+  ck_assert_int_eq(zp_sim_restore(sim, saved, zp_sim_state_size(other), &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, name[_i]));
+}
+
 /* CRC-32 as its definition says, bit by bit. */
 static uint32_t crc_of(const unsigned char *byte, size_t size) {
   uint32_t sum = 0xFFFFFFFFu;
