@@ -12,20 +12,21 @@ set key bottom left samplen 1.5 spacing 0.9
 set ylabel "relative error"
 of(problem, kind) = sprintf("<awk -F, '$1 == \"%s\" && $2 == \"%s\"' cost.csv", problem, kind)
 other(problem, code) = sprintf("<awk -F, '$1 == \"%s\" && $2 == \"%s\"' others.csv", problem, code)
+colour(c) = c eq "cubic elements" ? "#c00000" : c eq "discrete elastic rod (C++)" ? "#806000" : "#404040"
 array M = ["rod", "mass-spring", "rod explicit", "mass-spring explicit"]
 set xlabel "CPU time of a study, ms"
 set title "A guided strip hangs under 61 g: stroke"
 plot for [m = 1:2] of("rest", M[m]) using 4:5 with linespoints linecolor m pointtype 7 pointsize 0.5 title M[m], \
      for [c in '"cubic elements" "discrete elastic rod (C++)" "MuJoCo hinge chain"'] \
-       other("rest", c) using 4:5 with points pointtype 4 pointsize 1.2 linecolor rgb (c eq "cubic elements" ? "#c00000" : c eq "discrete elastic rod (C++)" ? "#806000" : "#404040") title c
+       other("rest", c) using 4:5 with points pointtype 4 pointsize 1.2 linecolor rgb colour(c) title c
 set xlabel "CPU time of a simulated second, s"
-set key bottom left
+set yrange [1e-7:1]
 set title "A cantilever swings: height of its tip"
 swing(steps, nodes) = sprintf("<awk -F, '$1 == \"%s\" && $2 == %d' swing.csv", steps, nodes)
 plot for [n in "9 15 21"] swing("implicit", n + 0) using 5:6 with linespoints linecolor (n + 0) / 6 pointtype 7 pointsize 0.5 title "rod, ".n." nodes", \
      for [c in '"cubic elements" "discrete elastic rod (C++)" "MuJoCo 3.14"'] \
-       other("swing", c) using 4:5 with points pointtype 4 pointsize 1.2 linecolor rgb (c eq "cubic elements" ? "#c00000" : c eq "discrete elastic rod (C++)" ? "#806000" : "#404040") title c
-set key bottom left
+       other("swing", c) using 4:5 with points pointtype 4 pointsize 1.2 linecolor rgb colour(c) title c
+set autoscale y
 set xlabel "CPU time of a study, ms"
 set title "Limits of the default actuator, dry: pull-in, by number of nodes"
 plot for [m = 1:2] of("limits", M[m]) using 4:5 with points linecolor m pointtype 7 pointsize 0.5 title M[m], \

@@ -20,7 +20,7 @@ table.writerows(rows)' >bench.csv
 gnuplot meter.gp
 "$build/precision" cost >cost.csv
 gnuplot cost.gp
-./model.py "$build/zipact" >model.csv
+./counts.py "$build/zipact" >counts.csv
 for motion in swing zip; do
   "$build/precision" $motion >$motion.csv
   gnuplot -e "motion='$motion'" precision.gp

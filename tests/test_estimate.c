@@ -47,7 +47,8 @@ static const Number numbers[] = {
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
  * covers the error. Measured: 1.2 times (pull-in, closing), 2.6 times (release, opening), 8 times (held force), 1.9
- * times (frequency), 5 times (zip time, largest load), whose errors depend on where among the nodes the front is. */
+ * times (frequency), 6.4 times (zip time), 5 times (largest load), whose errors depend on where among the nodes the
+ * front is. */
 TESTS(estimate_covers_the_error, 0, FULL_OR(LENGTH_OF(numbers), 0)) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});

@@ -241,18 +241,8 @@ static int next_given(const ZpActuatorDef *def, const Kind *k, int index) {
   return next >= 0 && next < end_of(k) ? next : -1;
 }
 
-/* The first key of this row of segments that is given; -1: none. */
-static int given_of_segments(const ZpActuatorDef *def, const Kind *k, int row) {
-  if (none_given(def, k)) return -1;
-  const double plain = zp_key(row)->def;
-  for (int index = zp_key_of_instance(row, 1); index < end_of(k); index += rows_of(k))
-    if (differs(def, index, plain)) return index;
-  return -1;
-}
-
 int zp_instance_given(const ZpActuatorDef *def, int row) {
   const Kind *k = kind_of_row(row);
-  if (zp_key_is_of_segment(k->first)) return given_of_segments(def, k, row);
   int key = next_given(def, k, k->first);
   while (key >= 0 && zp_key_instance(key).row != row)
     key = next_given(def, k, key + 1);
@@ -260,13 +250,13 @@ int zp_instance_given(const ZpActuatorDef *def, int row) {
 }
 
 void zp_instances_find_set(const ZpActuatorDef *def, bool set[ZP_KEYS]) {
-  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++) {
-    const bool any = zp_key_is_of_segment(k->first) && !none_given(def, k);
+  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++)
     for (int row = k->rows.first; row < k->rows.end; row++)
-      set[row] = any && given_of_segments(def, k, row) >= 0;
-  }
+      set[row] = false;
   for (size_t i = 0; def->given && i < def->given->count; i++)
     set[zp_key_instance(def->given->value[i].key).row] = true;
+  for (int i = zp_segment_key_next(def, -1); i >= 0; i = zp_segment_key_next(def, i))
+    set[zp_key_instance(i).row] = true;
 }
 
 int zp_instance_next(const ZpActuatorDef *def, int index) {

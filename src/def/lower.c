@@ -120,10 +120,7 @@ static bool is_driven(const ZpActuatorDef *ribbon, bool by_sign) {
 /* Has the lower ribbon a segment that the upper one does not have? */
 static bool has_own_segments(const ZpActuatorDef *def) {
   static const ZpKeyGroup rows = ZP_KEY_GROUP(lower.segment_K);
-  bool own = false;
-  for (int row = rows.first; row < rows.end; row++)
-    own |= zp_instance_given(def, row) >= 0;
-  return own;
+  return zp_segment_key_next(def, zp_key_of_instance(rows.first, 1) - 1) >= 0;
 }
 
 bool zp_def_drives(const ZpActuatorDef *def, bool by_sign) {

@@ -10,11 +10,6 @@ enum { WORDS = 256, VALUE = 96 };
 
 /* -- conditions ------------------------------------------------------------------------------------ */
 
-static double value_of(const ZpActuatorDef *def, int key) {
-  if (key == ZP_KEY(insulator.thickness)) return zp_insulator_thickness(def);
-  return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
-}
-
 /* A Def that rules ask, with what many of them ask of it, found when the first one does. */
 typedef struct Subject {
   const ZpActuatorDef *def;
@@ -34,7 +29,9 @@ static bool is_set(Subject *of, int key) {
   return of->set[key];
 }
 
-static double liquid_of(Subject *of) {
+static double value_of(Subject *of, int key) {
+  if (key == ZP_KEY(insulator.thickness)) return zp_insulator_thickness(of->def);
+  if (key != ZP_KEY(liquid.model)) return zp_def_get(of->def, key);
   if (!of->knows_liquid) of->liquid = zp_def_liquid(of->def);
   of->knows_liquid = true;
   return (double)of->liquid;
@@ -95,7 +92,7 @@ static bool holds(const ZpCondition *c, Subject *of) {
   case ZP_TEST_PLANE:
     return zp_def_plane(def);
   default:
-    return holds_for(c, c->key == ZP_KEY(liquid.model) ? liquid_of(of) : value_of(def, c->key));
+    return holds_for(c, value_of(of, c->key));
   }
 }
 
@@ -259,7 +256,7 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
     return;
   }
   if (given >= 0) key = given;
-  show_value(key, value_of(def, key), value);
+  show_value(key, value_of(&subject, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);
   else
@@ -276,7 +273,9 @@ ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef 
     return zp_fail(err, ZP_BAD_INPUT, "%s: %sdoes not support this; %s", head, asks, rule->why);
   zp_condition_text(needs, needed, sizeof needed);
   const char *space = strchr(needed, ' '), *words = bare && space ? space + 1 : needed; /* the head has the key */
-  show_value(needs->key, value_of(def, needs->key), value);
+  Subject subject;
+  begin(&subject, def);
+  show_value(needs->key, value_of(&subject, needs->key), value);
   if (needs->test == ZP_TEST_SET)
     snprintf(given, sizeof given, ", which is missing");
   else if (!bare && zp_key(needs->key)->type != ZP_KEY_TEXT && zp_key(needs->key)->type != ZP_KEY_BOOL)

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""What a study costs, counted:  bench/model.py COMMAND >model.csv
-                                bench/model.py COMMAND --check model.csv
+"""What a study costs, counted:
+
+    bench/counts.py COMMAND >counts.csv
+    bench/counts.py COMMAND --check counts.csv
 
 Each row is a study by callgrind with a simulated cache, which counts alike on every machine: instructions of zp_study_run,
 those for each node and iteration of Newton's method, the bytes that the first level of the cache takes from the second one
-and the last level from memory. --check fails if a study takes 1.3 times as many instructions as in the file. Takes five minutes;
-needs valgrind. Standard library only.
+and the last level from memory. --check fails if a study takes 1.3 times as many instructions as in the file. Takes five
+minutes; needs valgrind. Standard library only.
 """
 import argparse
 import csv
