@@ -130,6 +130,11 @@ def check_resume(zipact, scratch):
     ok("rows that are there are not computed again", all(blobs_of(part)[number] == blob for number, blob in before.items()))
     other = zipact.run("limits", part, "--resume", "--set", "ribbon.width=13 mm")
     ok("rows of another case do not count", other.returncode == 0 and (part / "table.csv").read_bytes() != (whole / "table.csv").read_bytes())
+    light, cases = scratch / "limits-light", listed(2, 20, 12, "g")
+    shutil.copytree(whole, light)
+    lighter = ["--resume", "--set", "load.mass=" + cases.replace("2 g", "1.9 g", 1)]
+    said = subprocess.run([word for word in zipact.command("limits", light, *lighter) if word != "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    ok("rows whose chunks start from another one do not count", said.returncode == 0 and "done before" not in said.stderr)
     fresh = zipact.run("limits", part)
     ok("without --resume all is computed", fresh.returncode == 0 and results(part) == results(whole))
     (part / "journal.sqlite").write_text("no database\n" * 100)

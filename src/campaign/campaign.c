@@ -8,7 +8,8 @@
  * they are finished, through a queue of bounded length: a worker waits if it computes faster than the disk writes. The
  * files are written from the journal, row by row in the order of the cases, so neither their bytes nor the memory
  * depend on the number of workers. If a row of a chunk is missing, the chunk is computed from its first case on,
- * because the journal does not have the states of its cases. */
+ * because the journal does not have the states of its cases; so are the heads from which it starts. The head of a chunk
+ * is its first case, from which those of later chunks of its block start. */
 #include <zipact/campaign.h>
 
 #include <errno.h>
@@ -53,6 +54,13 @@ typedef struct Worker {
   _Atomic double fraction; /* progress of the case that it runs, 0 .. 1 */
 } Worker;
 
+/* The head of a chunk. */
+typedef struct Head {
+  ZpResult *result;      /* kept until all chunks of its block are done; NULL: none, or the campaign ends */
+  _Atomic uint64_t hash; /* of its row; 0: not known yet */
+  enum { HEAD_NONE, HEAD_BUSY, HEAD_DONE } state;
+} Head;
+
 /* Cases from .. to - 1. */
 typedef struct Span {
   size_t from, to;
@@ -68,13 +76,15 @@ struct ZpCampaign {
   bool keeps_series;
   uint64_t start;      /* zp_campaign_hash */
   uint64_t *hash;      /* [cases] hashes of the rows of an earlier process; 0: none */
+  Head *head;          /* [chunks]; NULL: all cases start from scratch */
   unsigned char *mark; /* [cases] a Mark; used by the writer only */
   size_t uncommitted;  /* least number of a row that the journal may still lose; SIZE_MAX: none; the writer's, too */
   ZpCampaignState state;
   atomic_bool stop;
   pthread_mutex_t lock; /* guards the members below */
-  pthread_cond_t more, room;
+  pthread_cond_t more, room, heads;
   size_t next;           /* first case that no worker has taken yet */
+  size_t *undone;        /* [blocks] chunks that are not done; NULL: no heads */
   size_t first, waiting; /* the queue: a ring */
   Row queue[QUEUE];
   struct {
@@ -156,9 +166,8 @@ static void fail(ZpCampaign *c, const ZpError *err) {
 }
 
 /* A result is sent to the journal as bytes: there are many results, and no thread has to free the memory of another. */
-static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
+static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, const ZpResult *result) {
   ZpPacked *packed = zp_packed_of(result);
-  zp_result_destroy(result);
   if (packed)
     hand_over(c, number, hash, packed);
   else
@@ -183,26 +192,107 @@ static ZpResult *run_case(Worker *worker, size_t number, const ZpResult *neighbo
   return NULL;
 }
 
-/* Compute the hashes of the cases from .. to - 1, of whole chunks: the first case of a chunk starts from none. True if
- * the journal has all of them. */
-static bool hash_cases(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
-  uint64_t before = c->start;
-  bool known = true;
-  for (size_t i = from; i < to; i++) {
-    ZpActuatorDef def = {0};
-    const bool resolved =
-        zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* otherwise the run reports the reason */
-    if ((i - from) % c->chunk == 0) before = c->start;
-    before = hash[i - from] = resolved ? zp_case_hash(before, &def) : before;
-    known = known && resolved && c->hash[i] == before;
-    zp_def_clear(&def);
-  }
-  return known;
-}
-
 static void drop_series(ZpResult *result) {
   zp_table_destroy(result->series);
   result->series = NULL;
+}
+
+/* -- heads ------------------------------------------------------------------------------------------ */
+
+/* Wait until no other worker computes this head. True if the caller must compute it. */
+static bool take_head(ZpCampaign *c, Head *head) {
+  pthread_mutex_lock(&c->lock);
+  while (head->state == HEAD_BUSY)
+    pthread_cond_wait(&c->heads, &c->lock);
+  const bool taken = head->state == HEAD_NONE;
+  if (taken) head->state = HEAD_BUSY;
+  pthread_mutex_unlock(&c->lock);
+  return taken;
+}
+
+static void end_head(ZpCampaign *c, Head *head, ZpResult *result) {
+  pthread_mutex_lock(&c->lock);
+  head->result = result;
+  head->state = HEAD_DONE;
+  pthread_cond_broadcast(&c->heads);
+  pthread_mutex_unlock(&c->lock);
+}
+
+/* The head with this number, which may wait for those from which it starts. NULL if the campaign ends. */
+static const ZpResult *head_of(Worker *worker, size_t number) {
+  ZpCampaign *c = worker->campaign;
+  Head *head = &c->head[number / c->chunk];
+  if (!take_head(c, head)) return head->result;
+  const size_t neighbour = zp_case_neighbour(c->scenario, number);
+  const ZpResult *from = neighbour < number ? head_of(worker, neighbour) : NULL;
+  ZpResult *result = from || neighbour == number ? run_case(worker, number, from) : NULL;
+  if (result && !c->keeps_series) drop_series(result);
+  end_head(c, head, result);
+  return result;
+}
+
+static void drop_heads(ZpCampaign *c, size_t block) {
+  const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, first = block * ZP_BLOCK_CHUNKS;
+  for (size_t k = first; k < first + ZP_BLOCK_CHUNKS && k < chunks; k++) {
+    zp_result_destroy(c->head[k].result);
+    c->head[k].result = NULL;
+  }
+}
+
+/* Chunks of the cases from .. to - 1 are done. The last one of a block drops its heads. */
+static void end_chunks(ZpCampaign *c, size_t from, size_t to) {
+  for (size_t i = from; c->head && i < to; i += c->chunk) {
+    const size_t block = i / c->chunk / ZP_BLOCK_CHUNKS;
+    pthread_mutex_lock(&c->lock);
+    const bool last = --c->undone[block] == 0;
+    pthread_mutex_unlock(&c->lock);
+    if (last) drop_heads(c, block);
+  }
+}
+
+/* False if there is no memory. */
+static bool create_heads(ZpCampaign *c) {
+  if (!zp_study_follows(c->study)) return true;
+  const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, blocks = (chunks + ZP_BLOCK_CHUNKS - 1) / ZP_BLOCK_CHUNKS;
+  c->head = calloc(chunks, sizeof *c->head);
+  c->undone = calloc(blocks, sizeof *c->undone);
+  for (size_t k = 0; c->undone && k < chunks; k++)
+    c->undone[k / ZP_BLOCK_CHUNKS]++;
+  return c->head && c->undone;
+}
+
+/* -- spans ------------------------------------------------------------------------------------------ */
+
+/* The hash of a case that follows one with the hash `before`. *resolved: are its keys possible? If not, the run reports
+ * the reason, and the hash is the same. */
+static uint64_t hash_after(const ZpCampaign *c, size_t number, uint64_t before, bool *resolved) {
+  ZpActuatorDef def = {0};
+  *resolved = zp_scenario_given(c->scenario, number, &def, NULL) == ZP_OK;
+  const uint64_t hash = *resolved ? zp_case_hash(before, &def) : before;
+  zp_def_clear(&def);
+  return hash;
+}
+
+/* The hash of the first case of a chunk, after that of the head from which it starts. */
+static uint64_t hash_of_first(const ZpCampaign *c, size_t number, bool *resolved) {
+  const size_t neighbour = zp_case_neighbour(c->scenario, number);
+  if (neighbour == number) return hash_after(c, number, c->start, resolved);
+  Head *from = &c->head[neighbour / c->chunk];
+  uint64_t before = atomic_load(&from->hash);
+  if (before == 0) before = hash_of_first(c, neighbour, resolved);
+  atomic_store(&from->hash, before);
+  return hash_after(c, number, before, resolved);
+}
+
+/* Compute the hashes of the cases from .. to - 1, of whole chunks. True if the journal has all of them. */
+static bool hash_cases(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
+  bool known = true, resolved;
+  for (size_t i = from; i < to; i++) {
+    const bool first = (i - from) % c->chunk == 0;
+    hash[i - from] = first ? hash_of_first(c, i, &resolved) : hash_after(c, i, hash[i - from - 1], &resolved);
+    known = known && resolved && c->hash[i] == hash[i - from];
+  }
+  return known;
 }
 
 /* The results of cases from .. to - 1 from which others may start yet. */
@@ -211,26 +301,26 @@ typedef struct Kept {
   ZpResult *result[SPAN_MOST];
 } Kept;
 
-static const ZpResult *neighbour_of(const ZpScenario *scenario, const Kept *kept, size_t number) {
-  const size_t neighbour = zp_case_neighbour(scenario, number);
-  return neighbour < number ? kept->result[neighbour - kept->from] : NULL;
-}
-
-/* A result is sent to the writer when the last one that starts from it is finished. */
-static void run_here(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
+/* Compute a chunk. A result is sent to the writer when the last one of the chunk that starts from it is finished. */
+static void run_chunk(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
   ZpCampaign *c = worker->campaign;
   Kept kept = {.from = from};
   size_t last[SPAN_MOST];
-  bool runs = true;
+  const ZpResult *head = c->head ? head_of(worker, from) : NULL;
+  bool runs = head || !c->head;
+  if (head) hand_over_result(c, from, hash[0], head);
   zp_case_last(c->scenario, from, to, last);
-  for (size_t i = from; i < to && runs; i++) {
-    ZpResult *result = kept.result[i - from] = run_case(worker, i, neighbour_of(c->scenario, &kept, i));
+  for (size_t i = from + (head != NULL); i < to && runs; i++) {
+    const size_t neighbour = zp_case_neighbour(c->scenario, i);
+    const ZpResult *start = neighbour == i ? NULL : neighbour == from ? head : kept.result[neighbour - from];
+    ZpResult *result = kept.result[i - from] = run_case(worker, i, start);
     runs = result != NULL;
     if (runs && !c->keeps_series) drop_series(result);
     for (size_t k = from; k <= i; k++) {
       ZpResult **done = &kept.result[k - from];
       if (!*done || (runs && last[k - from] > i)) continue;
       hand_over_result(c, k, hash[k - from], *done);
+      zp_result_destroy(*done);
       *done = NULL;
     }
   }
@@ -247,8 +337,10 @@ static bool run_elsewhere(Worker *worker, size_t from, size_t to, const uint64_t
   const bool lost = status == ZP_OK && !byte;
   if (status == ZP_OK && byte && !zp_results_read(byte, size, c->study, to - from, result)) status = ZP_MACHINE;
   if (status != ZP_OK) fail(c, &err);
-  for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
+  for (size_t i = from; i < to && status == ZP_OK && !lost; i++) {
     hand_over_result(c, i, hash[i - from], result[i - from]);
+    zp_result_destroy(result[i - from]);
+  }
   free(byte); /* which has the names of the results */
   return !lost;
 }
@@ -264,7 +356,8 @@ static bool run_span(Worker *worker, size_t from, size_t to) {
   if (!known && c->options.remote)
     lost = !run_elsewhere(worker, from, to, hash);
   else if (!known)
-    run_here(worker, from, to, hash);
+    run_chunk(worker, from, to, hash);
+  end_chunks(c, from, to);
   if (c->options.remote) end_span(c, from, to, lost);
   return !lost;
 }
@@ -422,8 +515,8 @@ static ZpCampaign *create(void) {
   pthread_condattr_t attributes;
   ZpCampaign *c = calloc(1, sizeof *c);
   if (c && pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
-      pthread_condattr_init(&attributes) == 0 && pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
-      pthread_cond_init(&c->more, &attributes) == 0)
+      pthread_cond_init(&c->heads, NULL) == 0 && pthread_condattr_init(&attributes) == 0 &&
+      pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 && pthread_cond_init(&c->more, &attributes) == 0)
     return c;
   free(c);
   return NULL;
@@ -452,7 +545,7 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   c->uncommitted = SIZE_MAX;
   c->hash = calloc(c->cases, sizeof *c->hash);
   c->mark = calloc(c->cases, sizeof *c->mark);
-  ZpStatus status = c->hash && c->mark ? open_campaign(c, directory, err) : zp_fail_memory(err);
+  ZpStatus status = c->hash && c->mark && create_heads(c) ? open_campaign(c, directory, err) : zp_fail_memory(err);
   if (status == ZP_OK) return ZP_OK;
   zp_campaign_close(c);
   *out = NULL;
@@ -481,6 +574,11 @@ void zp_campaign_close(ZpCampaign *c) {
   pthread_mutex_destroy(&c->lock);
   pthread_cond_destroy(&c->more);
   pthread_cond_destroy(&c->room);
+  pthread_cond_destroy(&c->heads);
+  for (size_t k = 0; c->head && k * c->chunk < c->cases; k++)
+    zp_result_destroy(c->head[k].result);
+  free(c->head);
+  free(c->undone);
   free(c->lost.span);
   free(c->hash);
   free(c->mark);
@@ -497,6 +595,21 @@ static bool put_result(FILE *out, const ZpResult *result) {
   return put;
 }
 
+/* The result from which case `number` starts, of a head that is not `kept`, and *made, to be destroyed: that head is
+ * computed, and so are those from which it starts itself. NULL: it starts from scratch, or *status says why not. */
+static const ZpResult *start_of(const ZpScenario *scenario, const Kept *kept, size_t number, const ZpHooks *hooks,
+                                ZpResult **made, ZpStatus *status, ZpError *err) {
+  const size_t neighbour = zp_case_neighbour(scenario, number);
+  *made = NULL;
+  if (neighbour == number) return NULL;
+  if (neighbour >= kept->from) return kept->result[neighbour - kept->from];
+  ZpResult *before;
+  const ZpResult *start = start_of(scenario, kept, neighbour, hooks, &before, status, err);
+  if (*status == ZP_OK) *status = zp_case_run_or_say(scenario, neighbour, start, hooks, made, err);
+  zp_result_destroy(before);
+  return *made;
+}
+
 /* Run the cases one after the other and append their results. */
 static ZpStatus compute_all(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks, FILE *out,
                             ZpError *err) {
@@ -504,8 +617,10 @@ static ZpStatus compute_all(const ZpScenario *scenario, size_t from, size_t to, 
   ZpStatus status = ZP_OK;
   const bool keeps_series = zp_scenario_keeps_series(scenario);
   for (size_t i = from; i < to && status == ZP_OK; i++) {
-    ZpResult **result = &kept.result[i - from];
-    status = zp_case_run_or_say(scenario, i, neighbour_of(scenario, &kept, i), hooks, result, err);
+    ZpResult **result = &kept.result[i - from], *made;
+    const ZpResult *start = start_of(scenario, &kept, i, hooks, &made, &status, err);
+    if (status == ZP_OK) status = zp_case_run_or_say(scenario, i, start, hooks, result, err);
+    zp_result_destroy(made);
     if (status != ZP_OK) break;
     if (!keeps_series) drop_series(*result);
     if (!put_result(out, *result)) status = zp_fail_memory(err);

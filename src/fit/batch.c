@@ -80,8 +80,9 @@ static size_t in_rows(const ZpScenario *scenario, size_t cases) {
   return at_most((cases + row - 1) / row, ZP_CHUNK_MOST / row) * row;
 }
 
-/* The first case of a chunk starts from scratch and takes as long as some 6 others. A small sweep has about 8 chunks,
- * so that as many processors have work; a large one has longer chunks, of about 32 cases or more. */
+/* A small sweep has about 8 chunks, so that as many processors have work; a large one has longer chunks, of about 32
+ * cases or more, because the first case of a chunk starts from one farther away and takes as long as several others.
+ */
 size_t zp_case_chunk(const ZpScenario *scenario) {
   enum { CHUNKS_OF_FEW = 8, LONGEST_OF_FEW = 16, CHUNKS_OF_MANY = 32 };
   const size_t cases = zp_scenario_count(scenario);
@@ -109,13 +110,19 @@ static size_t apart_of(const ZpScenario *scenario, size_t index) {
 }
 
 size_t zp_case_neighbour(const ZpScenario *scenario, size_t index) {
-  const size_t apart = apart_of(scenario, index), in_chunk = index % zp_case_chunk(scenario);
-  return apart <= in_chunk ? index - apart : index;
+  if (!zp_study_follows(zp_scenario_study(scenario))) return index;
+  const size_t apart = apart_of(scenario, index), chunk = zp_case_chunk(scenario), block = ZP_BLOCK_CHUNKS * chunk;
+  const size_t before = index - apart, in_chunk = index % chunk;
+  if (in_chunk > 0) return apart <= in_chunk ? before : index - in_chunk;
+  return before / block == index / block ? before / chunk * chunk : index;
 }
 
 void zp_case_last(const ZpScenario *scenario, size_t from, size_t to, size_t *last) {
-  for (size_t i = from; i < to; i++)
-    last[i - from] = last[zp_case_neighbour(scenario, i) - from] = i;
+  for (size_t i = from; i < to; i++) {
+    const size_t neighbour = zp_case_neighbour(scenario, i);
+    last[i - from] = i;
+    if (neighbour >= from) last[neighbour - from] = i;
+  }
 }
 
 static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, const ZpResult *neighbour,
@@ -155,12 +162,13 @@ ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, const ZpRe
   return *result ? ZP_OK : zp_fail_memory(err);
 }
 
-/* The states from which no case starts after this one are freed. */
+/* The states from which no case of this chunk starts after this one are freed; from the first case of a chunk those of
+ * others start. */
 static void forget_states(const ZpBatch *batch, size_t index) {
   const size_t chunk = zp_case_chunk(batch->scenario), from = index / chunk * chunk;
   size_t last[ZP_CHUNK_MOST] = {0};
   zp_case_last(batch->scenario, from, at_most(from + chunk, batch->count), last);
-  for (size_t i = from; i <= index; i++)
+  for (size_t i = from + 1; i <= index; i++)
     if (last[i - from] <= index) zp_result_forget_states(batch->result[i]);
 }
 
