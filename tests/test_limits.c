@@ -784,6 +784,39 @@ TEST(largest_load_from_gradual_neighbours) {
   }
 }
 
+/* Thick ribbons open gradually: their release is no limit point, but it is followed, too. */
+TEST(gradual_release_of_a_neighbour) {
+  ZpActuatorDef def =
+      DEF({"ribbon.thickness", 110e-6}, {"mesh.nodes", 61}, {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
+  ZpResult *near = limits_of(&def);
+  def.load.mass *= 1.01;
+  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+  ck_assert_double_eq(zp_result_get(warm, "warm_starts"), 3);
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    same(warm, cold, names[i], 1e-9);
+}
+
+/* Ribbons of 195 um close at their pull-in, those of 234 um fall from it to a state that closes gradually above. */
+TEST(closes_above_the_pull_in_of_its_neighbour) {
+  ZpActuatorDef def = DEF({"ribbon.width", 9.18193761e-3}, {"ribbon.thickness", 0.195035222e-3}, {"mesh.nodes", 61},
+                          {"liquid.model", ZP_LIQUID_BEAD}, {"output.errors", false});
+  ZpResult *near = limits_of(&def);
+  def.ribbon.thickness = 0.234042267e-3;
+  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    same(warm, cold, names[i], 1e-9);
+}
+
+/* The limit point of the neighbour's largest load is not the first that the voltage meets here. */
+TEST(largest_load_is_not_at_the_limit_point_of_its_neighbour) {
+  ZpActuatorDef def = DEF({"ribbon.width", 7.73756955e-3}, {"ribbon.length", 0.139473575}, {"mesh.nodes", 61},
+                          {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
+  ZpResult *near = limits_of(&def);
+  def.ribbon.length = 0.16736829;
+  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+  same(warm, cold, "max_load_kg", 1e-9);
+}
+
 static void check_no_neighbour(const ZpActuatorDef *def, const ZpActuatorDef *other) {
   ZpResult *near = limits_of(other), *warm = run(ZP_STUDY_LIMITS, def, near), *cold = limits_of(def);
   ck_assert_double_eq(zp_result_get(warm, "warm_starts"), 0);

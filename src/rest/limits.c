@@ -18,6 +18,7 @@ typedef struct Finder {
   double least, most;      /* loads; it closes under the former, but not under the latter; 0, INFINITY: not known, kg */
   ZpQuasistaticEnd raised; /* how the last rise of the voltage under such a load ended */
   double at_least, at_most; /* voltages that close it under these, V; NAN: not known */
+  bool follows;             /* closing was taken to be at the pull-in, as in the neighbour */
 } Finder;
 
 /* Hang without voltage, from close by => state, gap; this determines when it counts as closed. */
@@ -129,6 +130,12 @@ static bool go_to_event(Finder *f, double closed) {
 /* Does the voltage close the actuator gradually under this load, without a limit point before? */
 static bool closes_gradually(Finder *f, double load) {
   return hang_under(f, load) && zp_quasistatic_first(f->rest, (1 + same) * f->top, &f->limits->at) == ZP_TRACK_EVENT;
+}
+
+/* Is the limit point under this load, at the voltage asked for, the first that a rising voltage meets? */
+static bool is_met_first(Finder *f, double load) {
+  return hang_under(f, load) && zp_quasistatic_first(f->rest, far * f->top, &f->limits->at) == ZP_TRACK_FOLD &&
+         is_at_top(f, same);
 }
 
 /* From the present point, at the voltage under a large load, lower the load => its first limit, a candidate, if there
@@ -245,7 +252,7 @@ static void take(Finder *f, const double *state) {
   for (size_t k = 0; k < s->members; k++)
     zp_stretch(s->member[k].model, ratio, s->member[k].q);
   s->load = own;
-  zp_statics_stable(s);
+  zp_statics_evaluate(s);
 }
 
 /* The neighbour's limit, under its load at drive.voltage if it is the largest load. */
@@ -273,6 +280,12 @@ static bool is_limit(Finder *f, const ZpLimit *near, ZpLimitKind kind) {
   const bool before = near->end == ZP_TRACK_EVENT || closed == (kind == ZP_LIMIT_RELEASE);
   const bool within = load ? value > 0 : value <= f->top;
   return before && within && fabs(value / near->value - 1) <= farthest;
+}
+
+/* Is the largest load so far from the neighbour's that another limit point may come before it? */
+static bool is_far(const Finder *f) {
+  static const double farthest = 0.02; /* of the load */
+  return fabs(f->limits->limit[ZP_LIMIT_LOAD].value / f->near->limit[ZP_LIMIT_LOAD].value - 1) > farthest;
 }
 
 /* Is the limit point at the present point the highest crest of its ripple? The largest load must be; a voltage goes on
@@ -343,16 +356,20 @@ static bool closes_as_neighbour(Finder *f) {
 
 /* -- the limits ------------------------------------------------------------------------------------- */
 
-/* A voltage that rises to drive.voltage. */
-static ZpQuasistaticEnd raise_voltage(Finder *f) {
+/* A voltage that rises to drive.voltage, step by step. */
+static ZpQuasistaticEnd ramp_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
-  if (closes_as_neighbour(f)) return ZP_QUASISTATIC_CHANGED;
   zp_rest_go_to(f->rest, f->limits->start);
   ZpQuasistaticEnd end =
       zp_quasistatic_ramp_voltage(f->rest, f->top, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
   f->limits->arrives = end == ZP_QUASISTATIC_ARRIVED;
   if (f->limits->arrives) zp_rest_save(f->rest, f->limits->top);
   return end;
+}
+
+static ZpQuasistaticEnd raise_voltage(Finder *f) {
+  f->follows = closes_as_neighbour(f);
+  return f->follows ? ZP_QUASISTATIC_CHANGED : ramp_voltage(f);
 }
 
 /* The closed state at drive.voltage, from the neighbour's, from the state to which the voltage has led, or from the
@@ -378,7 +395,14 @@ static void lower_voltage(Finder *f) {
   zp_rest_go_to(f->rest, f->limits->closed);
   const int before = f->rest->falls;
   zp_quasistatic_lower(f->rest, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
-  f->limits->opens_first = f->rest->falls == before + 1;
+  const int at_limit = limit[ZP_LIMIT_RELEASE].end == ZP_TRACK_FOLD; /* it falls open, or opens gradually */
+  f->limits->opens_first = f->rest->falls == before + at_limit;
+}
+
+/* Closing is not at the pull-in, where that of the neighbour is: it opens above, or is not closed at drive.voltage. */
+static bool closes_later(const Finder *f) {
+  const ZpLimit *limit = f->limits->limit;
+  return f->follows && (!f->limits->closes || limit[ZP_LIMIT_RELEASE].value >= limit[ZP_LIMIT_CLOSING].value);
 }
 
 /* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
@@ -395,12 +419,12 @@ static bool hang_heavy(Finder *f) {
   return false;
 }
 
-/* Is the state to which the neighbour falls from its limit point closed here, too? If it closes gradually, does it
- * without a jump before? */
+/* Is its limit point the first that the voltage meets, and is the state to which the neighbour falls from there closed
+ * here, too? If it closes gradually, does it without a jump before? */
 static bool falls_as_neighbour(Finder *f) {
   const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
   if (limit->end == ZP_TRACK_EVENT) return closes_gradually(f, limit->value);
-  if (!hang_under(f, limit->value)) return false;
+  if (is_far(f) ? !is_met_first(f, limit->value) : !hang_under(f, limit->value)) return false;
   take(f, f->near->lifted);
   bool closed = zp_quasistatic_close(f->rest, f->top);
   zp_rest_save(f->rest, f->limits->lifted);
@@ -465,6 +489,11 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   none_from(&f, ZP_LIMIT_RELEASE, "it was not searched");
   if (up == ZP_QUASISTATIC_STOPPED) return;
   lower_voltage(&f);
+  if (closes_later(&f)) {
+    limits->warm--;
+    up = ramp_voltage(&f);
+    lower_voltage(&f);
+  }
   rest->statics.load = model->whole->load.mass;
   const char *reason = up == ZP_QUASISTATIC_LOST ? "it was not searched" : no_load(model, load);
   if (reason)

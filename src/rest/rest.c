@@ -84,7 +84,7 @@ void zp_rest_save(ZpRest *rest, double *state) {
 
 void zp_rest_go_to(ZpRest *rest, const double *state) {
   rest->system.restore(&rest->statics, state);
-  zp_statics_stable(&rest->statics);
+  zp_statics_evaluate(&rest->statics);
 }
 
 bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest) {

@@ -36,7 +36,7 @@ void zp_rest_close(ZpRest *rest);
 ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins);
 
 /* Number of doubles in a copy of the present point: its coordinates, voltage and load. Take one; go to one, whose
- * stiffness is then factored. */
+ * forces are then known. */
 size_t zp_rest_save_size(const ZpRest *rest);
 void zp_rest_save(ZpRest *rest, double *state);
 void zp_rest_go_to(ZpRest *rest, const double *state);

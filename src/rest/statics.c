@@ -952,8 +952,12 @@ static void exact_residual(ZpStatics *s, double *r) {
   zp_statics_take_tensions(s);
 }
 
-double zp_statics_holding(ZpStatics *s) {
+void zp_statics_evaluate(ZpStatics *s) {
   exact_residual(s, s->newton.r);
+}
+
+double zp_statics_holding(ZpStatics *s) {
+  zp_statics_evaluate(s);
   stiffness(s, &s->newton.K, s->newton.r);
   if (!zp_arrow_factor(&s->newton.K)) return s->reaction;
   zp_arrow_solve(&s->newton.K, s->newton.r);
@@ -1460,7 +1464,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
 }
 
 void zp_statics_exact_stiffness(ZpStatics *s) {
-  exact_residual(s, s->newton.r);
+  zp_statics_evaluate(s);
   stiffness(s, &s->newton.K, NULL);
 }
 

@@ -126,6 +126,9 @@ void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 /* That by the voltage of a port alone, by its first member, if it were U. */
 void zp_statics_by_port(ZpStatics *statics, size_t lead, double U, double *r_m);
 
+/* The forces of the present point, and the tensions of the exact stiffness there. */
+void zp_statics_evaluate(ZpStatics *statics);
+
 /* The exact stiffness of the present point, not factored; the damping of the strips there, N s/m => newton.K. */
 void zp_statics_exact_stiffness(ZpStatics *statics);
 void zp_statics_internal_damping(ZpStatics *statics);
