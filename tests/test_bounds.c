@@ -309,6 +309,17 @@ static void make_other(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "ribbon.relaxation_time") == 0) def->ribbon.relaxation_modulus = 1e9;
   if (strcmp(key, "insulator.relaxation_modulus") == 0 && value > 0) def->insulator.relaxation_time = 1;
   if (strcmp(key, "insulator.relaxation_time") == 0) def->insulator.relaxation_modulus = 1e9;
+  if (strstr(key, "hardening_modulus")) def->ribbon.plasticity = true;
+}
+
+/* Patches of the faces that leak are those of a liquid that conducts; each key requires the other. */
+static bool make_patches(ZpActuatorDef *def, const char *key, double value) {
+  if (strncmp(key, "electro.leak_", 13) != 0) return false;
+  const bool share = strcmp(key, "electro.leak_share") == 0;
+  def->medium.resistivity = 1e9;
+  if (!share) def->electro.leak_share = 0.1;
+  if (share && value > 0) def->electro.leak_ratio = 10;
+  return true;
 }
 
 /* What keys ask of one another, so that one of them can stand at its bound. */
@@ -328,9 +339,9 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "source.voltage_limit") == 0) def->drive.voltage = fmin(value, def->drive.voltage);
   if (strncmp(key, "sense.", 6) == 0) make_meter(def, key, value);
   if (strncmp(key, "control.", 8) == 0 || strncmp(key, "setpoint.", 9) == 0) make_controller(def, key, value);
-  if (strstr(key, "hardening_modulus")) def->ribbon.plasticity = true;
   bool changes = strncmp(key, "load.change_", 12) == 0 || strcmp(key, "load.drop_height") == 0;
-  if (strstr(key, ".resistivity") || def->ribbon.plasticity || changes) implicit = true;
+  if (make_patches(def, key, value) || strstr(key, ".resistivity") || def->ribbon.plasticity || changes)
+    implicit = true;
   if (unilateral || implicit || (strcmp(key, "damping.internal") == 0 && value > 0)) {
     def->contact.model = ZP_CONTACT_UNILATERAL;
     def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
