@@ -19,6 +19,12 @@ static void add_term(double term, int k, Jet *sum) {
   sum->second += k * (k - 1) * term;
 }
 
+/* => of `above` over `below`. */
+static Jet quotient(Jet above, Jet below) {
+  const double ratio = above.value / below.value, first = (above.first - ratio * below.first) / below.value;
+  return (Jet){ratio, first, (above.second - 2 * first * below.first - ratio * below.second) / below.value};
+}
+
 /* Terms of one sign: none cancels another. */
 static Jet share_by_series(double t) {
   static const double least = 1e-18; /* of the sum */
@@ -29,9 +35,8 @@ static Jet share_by_series(double t) {
     add_term(a / (4 * k + 2), k, &above);
     a *= t / ((4.0 * k + 2) * (4 * k + 3) * (4 * k + 4) * (4 * k + 5));
   }
-  double ratio = above.value / below.value, first = (above.first - ratio * below.first) / below.value;
-  double second = (above.second - 2 * first * below.first - ratio * below.second) / below.value;
-  return (Jet){2 * ratio, 2 * first, 2 * second};
+  const Jet share = quotient(above, below);
+  return (Jet){2 * share.value, 2 * share.first, 2 * share.second};
 }
 
 /* f = 2 / theta, from where exp(-theta) is below rounding. */
@@ -40,6 +45,30 @@ static Jet share_of(double t) {
   if (t < far * far * far * far) return share_by_series(t);
   double f = 2 / sqrt(sqrt(t));
   return (Jet){f, -f / 4, f * 5 / 16};
+}
+
+/* Terms of one sign: b of the letters above, subtracted from half of a, term by term. */
+static Jet held_by_series(double t) {
+  static const double least = 1e-18; /* of the sum */
+  Jet below = {0, 0, 0}, above = {0, 0, 0};
+  double a = 1, next = 1.0 / 120; /* the term after a, over t */
+  for (int k = 0; k * k * a > least * below.second || a > least * below.value; k++) {
+    add_term(a, k, &below);
+    add_term(next * (4 * k + 4) / (4 * k + 6), k, &above);
+    a = next * t;
+    next *= t / ((4.0 * k + 6) * (4 * k + 7) * (4 * k + 8) * (4 * k + 9));
+  }
+  return quotient(above, below);
+}
+
+ZpCurlHeld zp_curl_held(double t) {
+  static const double far = 36;
+  if (t < far * far * far * far) {
+    const Jet held = held_by_series(t);
+    return (ZpCurlHeld){held.value, held.first, held.second};
+  }
+  const double f = 2 / sqrt(sqrt(t));
+  return (ZpCurlHeld){(1 - f) / t, (1.25 * f - 1) / t, (2 - 2.8125 * f) / t};
 }
 
 ZpCurlLaw zp_curl_law(const ZpCurl *curl, double curvature) {

@@ -17,6 +17,13 @@ typedef struct ZpCurlLaw {
 /* (strip, curvature 1/m of any sign) => the law there. */
 ZpCurlLaw zp_curl_law(const ZpCurl *curl, double curvature);
 
+/* Share of curling that a wide strip holds, 1 - f of eq. (2.6), at t = theta^4, over t; t times its first and t^2 times
+ * its second derivative. */
+typedef struct ZpCurlHeld {
+  double value, first, second;
+} ZpCurlHeld;
+ZpCurlHeld zp_curl_held(double t);
+
 /* Mean of M on the way from one curvature to another, (W1 - W0) / (curvature1 - curvature0), N m, and its derivative by
  * the latter, N m^2. */
 typedef struct ZpCurlMean {

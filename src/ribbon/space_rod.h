@@ -1,0 +1,64 @@
+/* A rod in space: edges that stretch, joints that turn about the width, the normal and the tangent of a strip. Its
+ * energy, forces and stiffness at a point; docs/theory.md, section 41. In the plane it is the rod of rod.h.
+ *
+ * Unknown numbers of node i: x, y, z, and the angle of the edge from it to the next node, at [4 i]. A change moves the
+ * nodes and turns the frames (space_joint.h), which are part of the state. */
+#ifndef ZP_RIBBON_SPACE_ROD_H
+#define ZP_RIBBON_SPACE_ROD_H
+
+#include <stddef.h>
+
+#include "ribbon/space_joint.h"
+#include "ribbon/space_section.h"
+
+enum { ZP_SPACE_OF_NODE = 4 };
+
+/* A place of the rod with an energy: `weight` m of rod at curvatures and a twist that are so many 1/m per rad of the
+ * strains of one or two joints. */
+typedef struct ZpSpacePoint {
+  double weight;
+  size_t joints, joint[2];
+  double bend[2], twist[2];
+} ZpSpacePoint;
+
+/* Two places between which the warping energy acts: D (twist1 - twist0)^2 / (2 length); without a joint: twist 0. */
+typedef struct ZpSpaceWarp {
+  double length;
+  size_t joints, joint[2];
+  double twist[2];
+} ZpSpaceWarp;
+
+/* Joint i stands at node i: between the edges before and after it, or a held slope. Joints 0 and nodes - 1 exist where
+ * the slope is held. */
+typedef struct ZpSpaceRodParams {
+  size_t nodes, points, warps;
+  double l, S; /* rest length of edges, m; their stretching stiffness, N/m */
+  ZpSpaceSection section;
+  double natural[ZP_SPACE_STRAINS]; /* curvatures and twist of the rod at rest, 1/m */
+  const ZpSpacePoint *point;
+  const ZpSpaceWarp *warp;
+} ZpSpaceRodParams;
+
+/* At most 3 nodes points and nodes warps: those of a rod with slopes held at its ends or not, where the section is held
+ * flat, or not, where the slope is held. Writes point, warp, and their numbers. */
+void zp_space_points(ZpSpaceRodParams *params, const int held[2], int flat, ZpSpacePoint *point, ZpSpaceWarp *warp);
+
+typedef struct ZpSpaceRod {
+  double (*at)[3];     /* [nodes] positions, m */
+  ZpSpaceEdge *edge;   /* [nodes + 1] edge i + 1 from node i to the next; the first and the last: held slopes */
+  ZpSpaceJoint *joint; /* [nodes] */
+} ZpSpaceRod;
+
+/* From positions, with the frames that the edges have at their present tangents, turned by angles [nodes - 1] (NULL:
+ * not) => edges. */
+void zp_space_place(const ZpSpaceRodParams *params, ZpSpaceRod *rod, const double *angle);
+
+/* Energy, J, of placed edges => joints; their gradient [4 nodes], N and N m (NULL: not needed). */
+double zp_space_energy(const ZpSpaceRodParams *params, ZpSpaceRod *rod, double *gradient);
+
+/* Add the second derivatives, after zp_space_energy, to K: that by unknowns i and j >= i at K[i * (ZP_SPACE_BAND + 1) +
+ * j - i]. */
+enum { ZP_SPACE_BAND = 4 * ZP_SPACE_OF_NODE - 1 };
+void zp_space_stiffness(const ZpSpaceRodParams *params, ZpSpaceRod *rod, double *K);
+
+#endif
