@@ -33,7 +33,7 @@ static inline ZpSpaceEdge edge_along_x(double length, double normal_y, double no
 
 /* A straight rod from the origin along x; the slopes at its ends are held, or not, and so are the nodes there. */
 static inline void rod_straight(Rod *r, size_t nodes, double length, const ZpSpaceSection *section, double EA,
-                                const int held[2], bool flat, double normal_y, double normal_z) {
+                                const bool held[2], bool flat, double normal_y, double normal_z) {
   memset(r, 0, sizeof *r);
   const double l = length / (double)(nodes - 1);
   r->params = (ZpSpaceRodParams){.nodes = nodes, .l = l, .S = EA / l, .section = *section};
@@ -113,6 +113,14 @@ static inline double rod_settle(Rod *r) {
 static inline void rod_rest(Rod *r) {
   const double change = rod_settle(r);
   ck_assert_msg(change < 1e-9, "no rest: last change %g", change);
+}
+
+/* Move what is free by random steps of at most `size` m, and 400 rad for a m. */
+static inline void rod_shake(Rod *r, double size, uint64_t *seed) {
+  double step[ROD_UNKNOWNS];
+  for (size_t i = 0; i < rod_unknowns(r); i++)
+    step[i] = r->fixed[i] ? 0 : size * noise(seed) * (i % ZP_SPACE_OF_NODE == 3 ? 400 : 1);
+  rod_move(r, step);
 }
 
 #endif

@@ -716,6 +716,14 @@ TEST(travel_and_its_derivatives) {
 
 /* -- from a neighbour -------------------------------------------------------------------------------- */
 
+/* From a neighbour (NULL: none) and from scratch: the same limits. => the former */
+static ZpResult *same_limits(const ZpActuatorDef *def, const ZpResult *near, double tolerance) {
+  ZpResult *warm = run(ZP_STUDY_LIMITS, def, near), *cold = limits_of(def);
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    same(warm, cold, names[i], tolerance);
+  return warm;
+}
+
 /* Where a search begins does not change what it finds. */
 TESTS(test_limits_from_a_neighbour, 1, 2) {
   static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
@@ -725,11 +733,8 @@ TESTS(test_limits_from_a_neighbour, 1, 2) {
   for (int k = 0; k < 6; k++) {
     int key = zp_key_find(keys[_i]);
     ck_assert_int_eq(zp_def_set(&def, key, zp_def_get(&def, key) * 1.01, NULL), ZP_OK);
-    ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
-    starts += zp_result_get(warm, "warm_starts");
-    for (size_t i = 0; i < LENGTH_OF(names); i++)
-      same(warm, cold, names[i], 1e-10);
-    near = warm;
+    near = same_limits(&def, near, 1e-10);
+    starts += zp_result_get(near, "warm_starts");
   }
   printf("%s: %g of 18 limits from the neighbour\n", keys[_i], starts);
   ck_assert_double_ge(starts, 9);
@@ -746,11 +751,8 @@ TEST(limits_from_a_far_neighbour) {
   for (size_t k = 0; k < LENGTH_OF(load); k++) {
     ZpActuatorDef def = DEF({"load.mass", load[k]}, {"ribbon.thickness", thickness[k]}, {"mesh.nodes", 61},
                             {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
-    ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
-    starts += zp_result_get(warm, "warm_starts");
-    for (size_t i = 0; i < LENGTH_OF(names); i++)
-      same(warm, cold, names[i], 1e-9);
-    near = warm;
+    near = same_limits(&def, near, 1e-9);
+    starts += zp_result_get(near, "warm_starts");
   }
   printf("%g of 9 limits from the neighbour\n", starts);
   ck_assert_double_ge(starts, 8);
@@ -790,10 +792,7 @@ TEST(gradual_release_of_a_neighbour) {
       DEF({"ribbon.thickness", 110e-6}, {"mesh.nodes", 61}, {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
   ZpResult *near = limits_of(&def);
   def.load.mass *= 1.01;
-  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
-  ck_assert_double_eq(zp_result_get(warm, "warm_starts"), 3);
-  for (size_t i = 0; i < LENGTH_OF(names); i++)
-    same(warm, cold, names[i], 1e-9);
+  ck_assert_double_eq(zp_result_get(same_limits(&def, near, 1e-9), "warm_starts"), 3);
 }
 
 /* Ribbons of 195 um close at their pull-in, those of 234 um fall from it to a state that closes gradually above. */
@@ -802,9 +801,7 @@ TEST(closes_above_the_pull_in_of_its_neighbour) {
                           {"liquid.model", ZP_LIQUID_BEAD}, {"output.errors", false});
   ZpResult *near = limits_of(&def);
   def.ribbon.thickness = 0.234042267e-3;
-  ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
-  for (size_t i = 0; i < LENGTH_OF(names); i++)
-    same(warm, cold, names[i], 1e-9);
+  same_limits(&def, near, 1e-9);
 }
 
 /* The limit point of the neighbour's largest load is not the first that the voltage meets here. */

@@ -2,11 +2,8 @@
  * energy and its angular momentum; section 41 of docs/theory.md. */
 #include "space_util.h"
 
+#include "math/vector.h"
 #include "ribbon/space_step.h"
-
-static double between(double from, double to) {
-  return from + (to - from) * drand48();
-}
 
 /* Two ends of a step, which share points and warps. */
 typedef struct Ends {
@@ -24,30 +21,23 @@ static void join(Ends *e) {
   e->end.rod = (ZpSpaceRod){e->end.at, e->end.edge, e->end.joint};
 }
 
-static void shake(Rod *r, double size) {
-  double step[ROD_UNKNOWNS];
-  for (size_t i = 0; i < rod_unknowns(r); i++)
-    step[i] = r->fixed[i] ? 0 : between(-size, size) * (i % ZP_SPACE_OF_NODE == 3 ? 400 : 1);
-  rod_move(r, step);
-  zp_space_energy(&r->params, &r->rod, r->gradient);
-}
-
 static const double E = 200e9, poisson = 0.285, thin = 50e-6, wide = 12.7e-3;
 
 /* A step from a random shape to another one, by `size` m; a law that curls is integrated, another one exact. */
 static void random_step(bool curls, double size) {
   ZpSpaceSection section = zp_space_section(E, poisson, thin, wide, false);
   if (!curls) section.squared = 0;
-  rod_straight(&ends.start, 15, 0.05, &section, 1e4, (const int[]){1, 0}, true, 1, 0);
+  rod_straight(&ends.start, 15, 0.05, &section, 1e4, (const bool[]){1, 0}, true, 1, 0);
   ends.start.params.natural[ZP_SPACE_BEND] = 11;
-  srand48(7);
-  shake(&ends.start, 3e-4);
+  uint64_t seed = 7;
+  rod_shake(&ends.start, 3e-4, &seed);
+  zp_space_energy(&ends.start.params, &ends.start.rod, NULL);
   join(&ends);
   for (size_t i = 1; i < 15; i++)
     for (int c = 0; c < 3; c++)
-      ends.end.at[i][c] += between(-size, size);
+      ends.end.at[i][c] += size * noise(&seed);
   for (size_t i = 0; i < 14; i++)
-    ends.roll[i] = between(-400, 400) * size;
+    ends.roll[i] = 400 * noise(&seed) * size;
   zp_space_step(&ends.start.params, &ends.start.rod, &ends.end.rod, ends.roll, &ends.step);
 }
 
@@ -66,7 +56,7 @@ TESTS(work_of_a_step_is_the_change_of_energy, 0, 2) {
   const double from = zp_space_energy(&ends.start.params, &ends.start.rod, NULL),
                to = zp_space_energy(&ends.end.params, &ends.end.rod, NULL);
   ck_below(fabs(work_of_step() + to - from) / (from + to),
-           _i ? 2e-5 : 1e-13); /* 7.6e-6 measured: a tenth of a radian a joint */
+           _i ? 1.8e-5 : 1e-13); /* 6.1e-6 measured: a tenth of a radian a joint */
 }
 
 /* A short step: minus the gradient. */
@@ -78,10 +68,10 @@ TEST(forces_of_a_short_step) {
     largest = fmax(largest, fabs(ends.start.gradient[i]));
   for (size_t i = 0; i < 15; i++)
     for (size_t c = 0; c < 3; c++)
-      ck_below(fabs(ends.force[i][c] + ends.start.gradient[ZP_SPACE_OF_NODE * i + c]) / largest, 1e-4);
+      ck_below(fabs(ends.force[i][c] + ends.start.gradient[ZP_SPACE_OF_NODE * i + c]) / largest, 6e-6);
   for (size_t i = 0; i < 14; i++)
-    ck_below(fabs(ends.torque[i] + ends.start.gradient[ZP_SPACE_OF_NODE * i + 3]),
-             1e-4 * largest * ends.start.params.l);
+    ck_below(fabs(ends.torque[i] + ends.start.gradient[ZP_SPACE_OF_NODE * i + 3]) / (largest * ends.start.params.l),
+             2.1e-7);
 }
 
 /* -- a free strip ------------------------------------------------------------------------------------ */
@@ -92,14 +82,11 @@ typedef struct Motion {
   double h, mass[NODES], inertia, v[NODES][3], spin[NODES];
 } Motion;
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double energy_of(const Motion *m) {
   double sum = zp_space_energy(&ends.start.params, &ends.start.rod, NULL);
   for (size_t i = 0; i < NODES; i++)
-    sum += 0.5 * m->mass[i] * dot(m->v[i], m->v[i]) + (i + 1 < NODES ? 0.5 * m->inertia * m->spin[i] * m->spin[i] : 0);
+    sum += 0.5 * m->mass[i] * zp_space_dot(m->v[i], m->v[i]) +
+           (i + 1 < NODES ? 0.5 * m->inertia * m->spin[i] * m->spin[i] : 0);
   return sum;
 }
 
@@ -144,6 +131,7 @@ static int advance(Motion *m) {
       if (i + 1 < NODES)
         residual[ZP_SPACE_OF_NODE * i + 3] = ends.torque[i] - m->inertia * 2 * (ends.roll[i] / h - m->spin[i]) / h;
     }
+    zp_space_energy(p, &ends.end.rod, NULL); /* at its end, for the stiffness */
     rod_stiffness(&ends.end);
     for (size_t i = 0; i < UNKNOWNS; i++) {
       for (size_t a = 0; a < ROD_WIDE; a++)
@@ -177,7 +165,7 @@ static int advance(Motion *m) {
 static void tumble(int steps, double h, double bound) {
   const double length = 40e-3, density = 7900, mu = density * thin * wide;
   const ZpSpaceSection section = zp_space_section(E, poisson, thin, wide, false);
-  rod_straight(&ends.start, NODES, length, &section, E * thin * wide, (const int[]){0, 0}, false, 1, 0);
+  rod_straight(&ends.start, NODES, length, &section, E * thin * wide, (const bool[]){0, 0}, false, 1, 0);
   ends.start.fixed[UNKNOWNS - 1] = true;
   zp_space_energy(&ends.start.params, &ends.start.rod, ends.start.gradient);
   join(&ends);
@@ -191,7 +179,7 @@ static void tumble(int steps, double h, double bound) {
   }
   double L0[3], L[3];
   angular_momentum(&m, L0);
-  const double energy = energy_of(&m), whole = sqrt(dot(L0, L0));
+  const double energy = energy_of(&m), whole = sqrt(zp_space_dot(L0, L0));
   double drift = 0, turned = 0;
   long iterations = 0;
   for (int k = 1; k <= steps; k++) {
@@ -210,6 +198,6 @@ static void tumble(int steps, double h, double bound) {
 
 TESTS(free_strip_tumbles, 0, 1) {
   static const int steps[] = {2000, 100000};
-  tumble(steps[_i], 2e-5, 1e-10);
+  tumble(steps[_i], 2e-5, _i ? 7e-11 : 6e-12); /* 2.4e-11 and 2e-12 measured, by other roundings less */
 }
 ALSO_NIGHTLY(free_strip_tumbles, 1, 2)

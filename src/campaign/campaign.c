@@ -110,6 +110,10 @@ static double read_clock(void *user) {
   return options->clock(options->user);
 }
 
+static size_t chunks_of(const ZpCampaign *c) {
+  return (c->cases + c->chunk - 1) / c->chunk;
+}
+
 /* Number of cases that are taken at once: a chunk; several for another process, because messages take time, but few
  * enough that every process has some. */
 static size_t span_of(const ZpCampaign *c, size_t workers) {
@@ -232,7 +236,7 @@ static const ZpResult *head_of(Worker *worker, size_t number) {
 }
 
 static void drop_heads(ZpCampaign *c, size_t block) {
-  const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, first = block * ZP_BLOCK_CHUNKS;
+  const size_t chunks = chunks_of(c), first = block * ZP_BLOCK_CHUNKS;
   for (size_t k = first; k < first + ZP_BLOCK_CHUNKS && k < chunks; k++) {
     zp_result_destroy(c->head[k].result);
     c->head[k].result = NULL;
@@ -253,7 +257,7 @@ static void end_chunks(ZpCampaign *c, size_t from, size_t to) {
 /* False if there is no memory. */
 static bool create_heads(ZpCampaign *c) {
   if (!zp_study_follows(c->study)) return true;
-  const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, blocks = (chunks + ZP_BLOCK_CHUNKS - 1) / ZP_BLOCK_CHUNKS;
+  const size_t chunks = chunks_of(c), blocks = (chunks + ZP_BLOCK_CHUNKS - 1) / ZP_BLOCK_CHUNKS;
   c->head = calloc(chunks, sizeof *c->head);
   c->undone = calloc(blocks, sizeof *c->undone);
   for (size_t k = 0; c->undone && k < chunks; k++)
@@ -480,7 +484,7 @@ static size_t start_workers(ZpCampaign *c, Worker *worker, size_t most) {
 
 ZpStatus zp_campaign_run(ZpCampaign *c, ZpError *err) {
   const size_t jobs = (size_t)(c->options.jobs > 0 ? c->options.jobs : zp_processors());
-  const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, most = jobs < chunks ? jobs : chunks;
+  const size_t chunks = chunks_of(c), most = jobs < chunks ? jobs : chunks;
   Worker *worker = calloc(most, sizeof *worker);
   free(c->lost.span);
   c->lost.span = calloc(most, sizeof *c->lost.span);
@@ -575,7 +579,7 @@ void zp_campaign_close(ZpCampaign *c) {
   pthread_cond_destroy(&c->more);
   pthread_cond_destroy(&c->room);
   pthread_cond_destroy(&c->heads);
-  for (size_t k = 0; c->head && k * c->chunk < c->cases; k++)
+  for (size_t k = 0; c->head && k < chunks_of(c); k++)
     zp_result_destroy(c->head[k].result);
   free(c->head);
   free(c->undone);

@@ -489,8 +489,8 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   none_from(&f, ZP_LIMIT_RELEASE, "it was not searched");
   if (up == ZP_QUASISTATIC_STOPPED) return;
   lower_voltage(&f);
-  if (closes_later(&f)) {
-    limits->warm--;
+  if (closes_later(&f)) { /* neither limit is that of the neighbour */
+    limits->warm = 0;
     up = ramp_voltage(&f);
     lower_voltage(&f);
   }

@@ -947,13 +947,9 @@ static void stiffness(void *self, ZpArrow *K, double *r) {
 }
 
 /* The exact stiffness is that with the tensions of the present point. */
-static void exact_residual(ZpStatics *s, double *r) {
-  residual(s, r, NULL);
-  zp_statics_take_tensions(s);
-}
-
 void zp_statics_evaluate(ZpStatics *s) {
-  exact_residual(s, s->newton.r);
+  residual(s, s->newton.r, NULL);
+  zp_statics_take_tensions(s);
 }
 
 double zp_statics_holding(ZpStatics *s) {

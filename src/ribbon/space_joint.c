@@ -9,67 +9,63 @@
 #include <string.h>
 
 #include "math/elementary.h"
-
-/* -- vectors --------------------------------------------------------------------------------------- */
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/* out += factor v */
-static void add(double factor, const double v[3], double out[3]) {
-  for (int i = 0; i < 3; i++)
-    out[i] += factor * v[i];
-}
+#include "math/vector.h"
 
 /* -- edges ----------------------------------------------------------------------------------------- */
 
-void zp_space_carry(const double from[3], const double to[3], double vector[3]) {
-  const double part = -dot(vector, to) / (1 + dot(from, to));
-  add(part, from, vector);
-  add(part, to, vector);
+/* Carry a unit vector that is orthogonal to the unit vector `from` by the shortest rotation from it to `to`, which is
+ * not opposite. */
+static void carry(const double from[3], const double to[3], double vector[3]) {
+  const double part = -zp_space_dot(vector, to) / (1 + zp_space_dot(from, to));
+  zp_space_add(part, from, vector);
+  zp_space_add(part, to, vector);
 }
 
 ZpSpaceEdge zp_space_move(const ZpSpaceEdge *before, const double vector[3], double angle) {
-  ZpSpaceEdge edge = {.length = sqrt(dot(vector, vector))};
+  ZpSpaceEdge edge = {.length = sqrt(zp_space_dot(vector, vector))};
   double normal[3], width[3];
-  add(1 / edge.length, vector, edge.t);
+  zp_space_add(1 / edge.length, vector, edge.t);
   memcpy(normal, before->normal, sizeof normal);
-  zp_space_carry(before->t, edge.t, normal);
-  add(-dot(normal, edge.t), edge.t, normal);
-  const double over = 1 / sqrt(dot(normal, normal));
-  cross(edge.t, normal, width);
+  carry(before->t, edge.t, normal);
+  zp_space_add(-zp_space_dot(normal, edge.t), edge.t, normal);
+  const double over = 1 / sqrt(zp_space_dot(normal, normal));
+  zp_space_cross(edge.t, normal, width);
   const double half = zp_tangent(0.5 * angle), share = over / (1 + half * half);
-  add((1 - half * half) * share, normal, edge.normal);
-  add(2 * half * share, width, edge.normal);
-  cross(edge.t, edge.normal, edge.width);
+  zp_space_add((1 - half * half) * share, normal, edge.normal);
+  zp_space_add(2 * half * share, width, edge.normal);
+  zp_space_cross(edge.t, edge.normal, edge.width);
   return edge;
 }
 
 /* -- strains --------------------------------------------------------------------------------------- */
 
+ZpSpaceProducts zp_space_products(const ZpSpaceEdge *a, const ZpSpaceEdge *b) {
+  ZpSpaceProducts p = {.c = zp_space_dot(a->t, b->t)};
+  p.g = (4 / (1 + p.c) + 1) / 3;
+  p.T[ZP_SPACE_BEND] = 0.5 * (zp_space_dot(b->t, a->normal) - zp_space_dot(a->t, b->normal));
+  p.T[ZP_SPACE_SWAY] = 0.5 * (zp_space_dot(a->t, b->width) - zp_space_dot(b->t, a->width));
+  p.N = zp_space_dot(a->width, b->normal) - zp_space_dot(a->normal, b->width);
+  p.M = 1 + p.c + zp_space_dot(a->normal, b->normal) + zp_space_dot(a->width, b->width);
+  return p;
+}
+
 /* Between two tangents. */
 typedef struct Turn {
   const ZpSpaceEdge *edge[2];
-  double b[3], c, over; /* 1 / (1 + c) */
-  double g, g1, g2;     /* with its derivatives by c */
+  ZpSpaceProducts product;
+  double b[3], over; /* 1 / (1 + c) */
+  double g1, g2;     /* derivatives of g by c */
   double K[3];
 } Turn;
 
 static Turn turn_of(const ZpSpaceEdge *before, const ZpSpaceEdge *after) {
-  Turn turn = {.edge = {before, after}, .c = dot(before->t, after->t)};
-  cross(before->t, after->t, turn.b);
-  turn.over = 1 / (1 + turn.c);
-  turn.g = (4 * turn.over + 1) / 3;
+  const ZpSpaceProducts product = zp_space_products(before, after);
+  Turn turn = {.edge = {before, after}, .product = product};
+  zp_space_cross(before->t, after->t, turn.b);
+  turn.over = 1 / (1 + product.c);
   turn.g1 = -4.0 / 3 * turn.over * turn.over;
   turn.g2 = -2 * turn.g1 * turn.over;
-  add(turn.g, turn.b, turn.K);
+  zp_space_add(product.g, turn.b, turn.K);
   return turn;
 }
 
@@ -87,45 +83,42 @@ static Axis axis_of(const Turn *turn, ZpSpaceStrain strain) {
     const ZpSpaceEdge *edge = turn->edge[e];
     axis.of[e] = strain == ZP_SPACE_BEND ? edge->width : edge->normal;
     axis.turned[e] = strain == ZP_SPACE_BEND ? edge->normal : edge->width;
-    add(0.5, axis.of[e], axis.a);
+    zp_space_add(0.5, axis.of[e], axis.a);
   }
   return axis;
 }
 
 /* Derivative of a . K by both tangents, as if they were free. */
 static void by_tangents(const Turn *turn, const Axis *axis, double A[2][3]) {
-  const double *t0 = turn->edge[0]->t, *t1 = turn->edge[1]->t, ab = dot(axis->a, turn->b);
+  const double *t0 = turn->edge[0]->t, *t1 = turn->edge[1]->t, ab = zp_space_dot(axis->a, turn->b);
   double across[2][3];
-  cross(t1, axis->a, across[0]);
-  cross(axis->a, t0, across[1]);
+  zp_space_cross(t1, axis->a, across[0]);
+  zp_space_cross(axis->a, t0, across[1]);
   for (int e = 0; e < 2; e++) {
     memset(A[e], 0, sizeof A[e]);
-    add(turn->g1 * ab, e == 0 ? t1 : t0, A[e]);
-    add(turn->g, across[e], A[e]);
+    zp_space_add(turn->g1 * ab, e == 0 ? t1 : t0, A[e]);
+    zp_space_add(turn->product.g, across[e], A[e]);
   }
 }
 
 static void bending(const Turn *turn, ZpSpaceStrain strain, ZpSpaceJoint *joint) {
   const Axis axis = axis_of(turn, strain);
   double A[2][3], *gradient = joint->gradient[strain];
-  joint->strain[strain] = dot(axis.a, turn->K);
+  joint->strain[strain] = turn->product.g * turn->product.T[strain];
   by_tangents(turn, &axis, A);
   for (int e = 0; e < 2; e++) {
     const ZpSpaceEdge *edge = turn->edge[e];
-    const double along = dot(edge->t, A[e]);
+    const double along = zp_space_dot(edge->t, A[e]);
     for (int i = 0; i < 3; i++)
       gradient[3 * e + i] = (A[e][i] - along * edge->t[i]) / edge->length;
-    gradient[ZP_SPACE_ANGLE_BEFORE + e] = 0.5 * axis.sense * dot(axis.turned[e], turn->K);
+    gradient[ZP_SPACE_ANGLE_BEFORE + e] = 0.5 * axis.sense * zp_space_dot(axis.turned[e], turn->K);
   }
 }
 
 static void twist(const Turn *turn, ZpSpaceJoint *joint) {
   const ZpSpaceEdge *before = turn->edge[0], *after = turn->edge[1];
-  double carried[3], across[3], *gradient = joint->gradient[ZP_SPACE_TWIST];
-  memcpy(carried, before->normal, sizeof carried);
-  zp_space_carry(before->t, after->t, carried);
-  cross(after->t, carried, across);
-  joint->strain[ZP_SPACE_TWIST] = zp_angle(dot(after->normal, across), dot(after->normal, carried));
+  double *gradient = joint->gradient[ZP_SPACE_TWIST];
+  joint->strain[ZP_SPACE_TWIST] = 2 * zp_angle(turn->product.N, turn->product.M);
   for (int i = 0; i < 3; i++) {
     gradient[ZP_SPACE_BEFORE + i] = turn->over * turn->b[i] / before->length;
     gradient[ZP_SPACE_AFTER + i] = turn->over * turn->b[i] / after->length;
@@ -164,7 +157,7 @@ static void add_outer(double factor, const double a[3], const double b[3], doubl
       M[i][j] += factor * a[i] * b[j];
 }
 
-static void add_cross(double factor, const double a[3], double M[3][3]) {
+static void add_skew(double factor, const double a[3], double M[3][3]) {
   M[0][1] -= factor * a[2];
   M[0][2] += factor * a[1];
   M[1][0] += factor * a[2];
@@ -175,29 +168,29 @@ static void add_cross(double factor, const double a[3], double M[3][3]) {
 
 static void second_of_bending(const Turn *turn, ZpSpaceStrain strain, Second *second) {
   const Axis axis = axis_of(turn, strain);
-  const double *t[] = {turn->edge[0]->t, turn->edge[1]->t}, ab = dot(axis.a, turn->b);
+  const double *t[] = {turn->edge[0]->t, turn->edge[1]->t}, ab = zp_space_dot(axis.a, turn->b);
   double across[2][3];
   *second = (Second){0};
   by_tangents(turn, &axis, second->A);
-  cross(t[1], axis.a, across[0]);
-  cross(axis.a, t[0], across[1]);
+  zp_space_cross(t[1], axis.a, across[0]);
+  zp_space_cross(axis.a, t[0], across[1]);
   for (int e = 0; e < 2; e++) {
-    const double *other = t[1 - e], turned = 0.5 * axis.sense * dot(axis.turned[e], turn->b);
+    const double *other = t[1 - e], turned = 0.5 * axis.sense * zp_space_dot(axis.turned[e], turn->b);
     add_outer(turn->g2 * ab, other, other, second->M[e]);
     add_symmetric(2 * turn->g1, other, across[e], second->M[e]);
-    add_symmetric(0.5 * turn->g, axis.of[e], turn->b, second->M[e]);
+    add_symmetric(0.5 * turn->product.g, axis.of[e], turn->b, second->M[e]);
     for (int by = 0; by < 2; by++) {
       double part[3];
-      cross(by == 0 ? t[1] : axis.turned[e], by == 0 ? axis.turned[e] : t[0], part);
-      add(turn->g1 * turned, t[1 - by], second->by_angle[e][by]);
-      add(0.5 * axis.sense * turn->g, part, second->by_angle[e][by]);
+      zp_space_cross(by == 0 ? t[1] : axis.turned[e], by == 0 ? axis.turned[e] : t[0], part);
+      zp_space_add(turn->g1 * turned, t[1 - by], second->by_angle[e][by]);
+      zp_space_add(0.5 * axis.sense * turn->product.g, part, second->by_angle[e][by]);
     }
-    second->angle[e] = -0.5 * turn->g * dot(axis.of[e], turn->b);
+    second->angle[e] = -0.5 * turn->product.g * zp_space_dot(axis.of[e], turn->b);
   }
   add_outer(turn->g2 * ab, t[1], t[0], second->mixed);
   add_outer(turn->g1, t[1], across[1], second->mixed);
   add_outer(turn->g1, across[0], t[0], second->mixed);
-  add_cross(-turn->g, axis.a, second->mixed);
+  add_skew(-turn->product.g, axis.a, second->mixed);
   for (int i = 0; i < 3; i++)
     second->mixed[i][i] += turn->g1 * ab;
 }
@@ -206,9 +199,9 @@ static void second_of_twist(const Turn *turn, Second *second) {
   const double *t[] = {turn->edge[0]->t, turn->edge[1]->t}, over2 = turn->over * turn->over;
   *second = (Second){0};
   for (int e = 0; e < 2; e++) {
-    add(turn->over, turn->b, second->A[e]);
+    zp_space_add(turn->over, turn->b, second->A[e]);
     add_symmetric(-over2, turn->b, t[1 - e], second->M[e]);
-    add_cross(0.5 * turn->over, t[e], second->mixed);
+    add_skew(0.5 * turn->over, t[e], second->mixed);
   }
   add_outer(-0.5 * over2, turn->b, t[0], second->mixed);
   add_outer(-0.5 * over2, t[1], turn->b, second->mixed);
@@ -219,10 +212,10 @@ static void project(const ZpSpaceEdge *rows, const ZpSpaceEdge *columns, const d
   double right[3], left[3] = {0};
   const double over = 1 / (rows->length * columns->length);
   for (int i = 0; i < 3; i++) {
-    right[i] = dot(M[i], columns->t);
-    add(rows->t[i], M[i], left);
+    right[i] = zp_space_dot(M[i], columns->t);
+    zp_space_add(rows->t[i], M[i], left);
   }
-  const double both = dot(rows->t, right);
+  const double both = zp_space_dot(rows->t, right);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       out[i][j] = over * (M[i][j] - right[i] * columns->t[j] - rows->t[i] * (left[j] - both * columns->t[j]));
@@ -233,7 +226,7 @@ static void by_edges(const Turn *turn, const Second *second, double out[ZP_SPACE
   double block[3][3];
   for (int e = 0; e < 2; e++) {
     const ZpSpaceEdge *edge = turn->edge[e];
-    const double over2 = 1 / (edge->length * edge->length), along = dot(edge->t, second->A[e]);
+    const double over2 = 1 / (edge->length * edge->length), along = zp_space_dot(edge->t, second->A[e]);
     project(edge, edge, second->M[e], block);
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) {
@@ -243,7 +236,7 @@ static void by_edges(const Turn *turn, const Second *second, double out[ZP_SPACE
       }
     for (int by = 0; by < 2; by++) {
       const ZpSpaceEdge *other = turn->edge[by];
-      const double part = dot(other->t, second->by_angle[e][by]);
+      const double part = zp_space_dot(other->t, second->by_angle[e][by]);
       for (int i = 0; i < 3; i++)
         out[ZP_SPACE_ANGLE_BEFORE + e][3 * by + i] = out[3 * by + i][ZP_SPACE_ANGLE_BEFORE + e] =
             (second->by_angle[e][by][i] - part * other->t[i]) / other->length;

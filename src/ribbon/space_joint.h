@@ -15,16 +15,20 @@ typedef struct ZpSpaceEdge {
   double width[3];  /* t x m1 */
 } ZpSpaceEdge;
 
-/* Carry a unit vector that is orthogonal to the unit vector `from` by the shortest rotation from it to `to`, which is
- * not opposite. */
-void zp_space_carry(const double from[3], const double to[3], double vector[3]);
-
 /* The edge from its vector, m, with the frame that it had at the tangent of `before`, turned by `angle`, rad,
  * below half a turn. */
 ZpSpaceEdge zp_space_move(const ZpSpaceEdge *before, const double vector[3], double angle);
 
 /* Strains of a joint: about the width, the normal and the tangent, rad. */
 typedef enum ZpSpaceStrain { ZP_SPACE_BEND, ZP_SPACE_SWAY, ZP_SPACE_TWIST, ZP_SPACE_STRAINS } ZpSpaceStrain;
+
+/* Scalar products of the unit vectors of two edges, eqs. (41.2) and (41.3): c and g, of a strain of bending g T, of
+ * half the twist the tangent N / M. */
+typedef struct ZpSpaceProducts {
+  double c, g, T[2], N, M;
+} ZpSpaceProducts;
+
+ZpSpaceProducts zp_space_products(const ZpSpaceEdge *before, const ZpSpaceEdge *after);
 
 /* Directions of derivatives: the vectors of the edge before and after the joint, then the angles of both. */
 enum { ZP_SPACE_BEFORE = 0, ZP_SPACE_AFTER = 3, ZP_SPACE_ANGLE_BEFORE = 6, ZP_SPACE_ANGLE_AFTER, ZP_SPACE_WAYS };

@@ -1,7 +1,6 @@
 /* Letters of docs/theory.md, section 41. */
 #include "ribbon/space_rod.h"
 
-#include <math.h>
 #include <string.h>
 
 /* -- points ---------------------------------------------------------------------------------------- */
@@ -25,7 +24,7 @@ static size_t add_held(size_t held, size_t next, double l, ZpSpacePoint *point) 
   return sizeof of / sizeof of[0];
 }
 
-void zp_space_points(ZpSpaceRodParams *p, const int held[2], int flat, ZpSpacePoint *point, ZpSpaceWarp *warp) {
+void zp_space_points(ZpSpaceRodParams *p, const bool held[2], bool flat, ZpSpacePoint *point, ZpSpaceWarp *warp) {
   const size_t last = p->nodes - 1, first_free = held[0] ? 2 : 1, last_free = held[1] ? last - 2 : last - 1;
   const double l = p->l;
   size_t points = 0, warps = 0;
@@ -83,21 +82,27 @@ static void scatter(const ZpSpaceRodParams *p, size_t joint, const double by[ZP_
     if (first + i >= 0 && first + i < end) gradient[first + i] += wide[i];
 }
 
-static double factor_of(const ZpSpacePoint *point, size_t j, int strain) {
+double zp_space_factor(const ZpSpacePoint *point, size_t j, int strain) {
   return strain == ZP_SPACE_TWIST ? point->twist[j] : point->bend[j];
+}
+
+void zp_space_curvatures(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, const ZpSpacePoint *point,
+                         double k[ZP_SPACE_STRAINS]) {
+  const bool twists = point->twist[0] != 0 || point->twist[1] != 0;
+  for (int s = 0; s < ZP_SPACE_STRAINS; s++) {
+    k[s] = s == ZP_SPACE_TWIST && !twists ? 0 : -p->natural[s];
+    for (size_t j = 0; j < point->joints; j++)
+      k[s] += zp_space_factor(point, j, s) * rod->joint[point->joint[j]].strain[s];
+  }
 }
 
 static ZpSpaceLaw law_at(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, const ZpSpacePoint *point) {
   double k[ZP_SPACE_STRAINS];
-  for (int s = 0; s < ZP_SPACE_STRAINS; s++) {
-    k[s] = s == ZP_SPACE_TWIST && point->twist[0] == 0 && point->twist[1] == 0 ? 0 : -p->natural[s];
-    for (size_t j = 0; j < point->joints; j++)
-      k[s] += factor_of(point, j, s) * rod->joint[point->joint[j]].strain[s];
-  }
+  zp_space_curvatures(p, rod, point, k);
   return zp_space_law(&p->section, k[0], k[1], k[2]);
 }
 
-static double warp_of(const ZpSpaceRod *rod, const ZpSpaceWarp *warp) {
+double zp_space_warped(const ZpSpaceRod *rod, const ZpSpaceWarp *warp) {
   double twist = 0;
   for (size_t j = 0; j < warp->joints; j++)
     twist += warp->twist[j] * rod->joint[warp->joint[j]].strain[ZP_SPACE_TWIST];
@@ -110,25 +115,26 @@ static bool is_held_way(const ZpSpaceRodParams *p, size_t joint, int way) {
   return before ? joint == 0 : joint + 1 == p->nodes;
 }
 
-/* All joints between the present edges. */
-static void turn_joints(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
+void zp_space_turn_joints(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
   for (size_t j = 0; j < p->nodes; j++) {
-    zp_space_joint(&rod->edge[j], &rod->edge[j + 1], &rod->joint[j]);
-    memset(rod->joint[j].moment, 0, sizeof rod->joint[j].moment);
-    memset(rod->joint[j].stiffness, 0, sizeof rod->joint[j].stiffness);
-    for (int s = 0; s < ZP_SPACE_STRAINS && (j == 0 || j + 1 == p->nodes); s++)
-      for (int way = 0; way < ZP_SPACE_WAYS; way++)
-        if (is_held_way(p, j, way)) rod->joint[j].gradient[s][way] = 0;
+    ZpSpaceJoint *joint = &rod->joint[j];
+    zp_space_joint(&rod->edge[j], &rod->edge[j + 1], joint);
+    memset(joint->moment, 0, sizeof joint->moment);
+    memset(joint->stiffness, 0, sizeof joint->stiffness);
+    for (int way = 0; way < ZP_SPACE_WAYS; way++)
+      for (int s = 0; s < ZP_SPACE_STRAINS && is_held_way(p, j, way); s++)
+        joint->gradient[s][way] = 0;
   }
 }
 
 static void turn_joints_twice(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
   for (size_t j = 0; j < p->nodes; j++) {
-    zp_space_joint_second(&rod->edge[j], &rod->edge[j + 1], &rod->joint[j]);
-    for (int s = 0; s < ZP_SPACE_STRAINS && (j == 0 || j + 1 == p->nodes); s++)
-      for (int a = 0; a < ZP_SPACE_WAYS; a++)
-        for (int b = 0; b < ZP_SPACE_WAYS; b++)
-          if (is_held_way(p, j, a) || is_held_way(p, j, b)) rod->joint[j].second[s][a][b] = 0;
+    ZpSpaceJoint *joint = &rod->joint[j];
+    zp_space_joint_second(&rod->edge[j], &rod->edge[j + 1], joint);
+    for (int a = 0; a < ZP_SPACE_WAYS; a++)
+      for (int b = 0; b < ZP_SPACE_WAYS && is_held_way(p, j, a); b++)
+        for (int s = 0; s < ZP_SPACE_STRAINS; s++)
+          joint->second[s][a][b] = joint->second[s][b][a] = 0;
   }
 }
 
@@ -141,15 +147,15 @@ static double add_points(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
     for (size_t j = 0; j < point->joints; j++) {
       ZpSpaceJoint *joint = &rod->joint[point->joint[j]];
       for (int s = 0; s < ZP_SPACE_STRAINS; s++) {
-        const double by = point->weight * factor_of(point, j, s);
+        const double by = point->weight * zp_space_factor(point, j, s);
         joint->moment[s] += by * law.moment[s];
         for (int r = 0; r < ZP_SPACE_STRAINS; r++)
-          joint->stiffness[s][r] += by * factor_of(point, j, r) * law.stiffness[s][r];
+          joint->stiffness[s][r] += by * zp_space_factor(point, j, r) * law.stiffness[s][r];
       }
     }
   }
   for (const ZpSpaceWarp *warp = p->warp; warp < p->warp + p->warps; warp++) {
-    const double twist = warp_of(rod, warp), D = p->section.D / warp->length;
+    const double twist = zp_space_warped(rod, warp), D = p->section.D / warp->length;
     sum += 0.5 * D * twist * twist;
     for (size_t j = 0; j < warp->joints; j++) {
       ZpSpaceJoint *joint = &rod->joint[warp->joint[j]];
@@ -163,7 +169,7 @@ static double add_points(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
 double zp_space_energy(const ZpSpaceRodParams *p, ZpSpaceRod *rod, double *gradient) {
   double sum = 0;
   if (gradient) memset(gradient, 0, ZP_SPACE_OF_NODE * p->nodes * sizeof *gradient);
-  turn_joints(p, rod);
+  zp_space_turn_joints(p, rod);
   sum += add_points(p, rod);
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     const ZpSpaceEdge *edge = &rod->edge[i + 1];
@@ -263,7 +269,8 @@ static void add_between(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, double
     const size_t a = point->joint[0], b = point->joint[1];
     for (int s = 0; s < ZP_SPACE_STRAINS; s++)
       for (int r = 0; r < ZP_SPACE_STRAINS; r++) {
-        const double factor = point->weight * factor_of(point, 0, s) * factor_of(point, 1, r) * law.stiffness[s][r];
+        const double factor =
+            point->weight * zp_space_factor(point, 0, s) * zp_space_factor(point, 1, r) * law.stiffness[s][r];
         if (factor != 0) add_product(p, a, rod->joint[a].gradient[s], b, rod->joint[b].gradient[r], factor, K);
       }
   }

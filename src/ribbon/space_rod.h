@@ -6,6 +6,7 @@
 #ifndef ZP_RIBBON_SPACE_ROD_H
 #define ZP_RIBBON_SPACE_ROD_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "ribbon/space_joint.h"
@@ -39,9 +40,9 @@ typedef struct ZpSpaceRodParams {
   const ZpSpaceWarp *warp;
 } ZpSpaceRodParams;
 
-/* At most 3 nodes points and nodes warps: those of a rod with slopes held at its ends or not, where the section is held
- * flat, or not, where the slope is held. Writes point, warp, and their numbers. */
-void zp_space_points(ZpSpaceRodParams *params, const int held[2], int flat, ZpSpacePoint *point, ZpSpaceWarp *warp);
+/* Of a rod of four nodes or more, with slopes held at its ends or not, and the section held flat where they are held or
+ * not => point [3 nodes at most], warp [2 nodes at most], and their numbers. */
+void zp_space_points(ZpSpaceRodParams *params, const bool held[2], bool flat, ZpSpacePoint *point, ZpSpaceWarp *warp);
 
 typedef struct ZpSpaceRod {
   double (*at)[3];     /* [nodes] positions, m */
@@ -52,6 +53,17 @@ typedef struct ZpSpaceRod {
 /* From positions, with the frames that the edges have at their present tangents, turned by angles [nodes - 1] (NULL:
  * not) => edges. */
 void zp_space_place(const ZpSpaceRodParams *params, ZpSpaceRod *rod, const double *angle);
+
+/* Strains of all joints between placed edges, and their gradients, 0 along what is held; their moments become 0. */
+void zp_space_turn_joints(const ZpSpaceRodParams *params, ZpSpaceRod *rod);
+
+/* Curvatures and twist at a point, less the natural ones, 1/m; how many 1/m per rad of a strain of its joint j. */
+void zp_space_curvatures(const ZpSpaceRodParams *params, const ZpSpaceRod *rod, const ZpSpacePoint *point,
+                         double k[ZP_SPACE_STRAINS]);
+double zp_space_factor(const ZpSpacePoint *point, size_t j, int strain);
+
+/* Difference of the twists at both places of a warp, 1/m. */
+double zp_space_warped(const ZpSpaceRod *rod, const ZpSpaceWarp *warp);
 
 /* Energy, J, of placed edges => joints; their gradient [4 nodes], N and N m (NULL: not needed). */
 double zp_space_energy(const ZpSpaceRodParams *params, ZpSpaceRod *rod, double *gradient);

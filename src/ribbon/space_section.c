@@ -1,21 +1,23 @@
 /* Letters of docs/theory.md, section 41, eq. (41.1):
  *   k, tau  curvature about the width, twist             h  1 - f of eq. (2.6), the share of curling that is held
- *   S       B h / k^2: energy of curling by tau^4, N m^4
+ *   S       h / theta^4, with t = theta^4
  */
 #include "ribbon/space_section.h"
 
 #include <math.h>
 
 #include "ribbon/curl.h"
+#include "ribbon/section.h"
 
 ZpSpaceSection zp_space_section(double E, double poisson, double t, double w, bool softens) {
-  const double plane = 1 - poisson * poisson, B = E * w * t * t * t / 12 / plane;
-  return (ZpSpaceSection){.B = B,
+  const ZpLayer layer = {t, E, poisson, 0};
+  const ZpSection plain = zp_section(&layer, 1, w, true);
+  return (ZpSpaceSection){.B = plain.EI,
                           .B2 = E * t * w * w * w / 12,
                           .C = E / (2 * (1 + poisson)) * w * t * t * t / 3 * (1 - 0.63 * t / w),
                           .D = E * t * t * t * w * w * w / 144,
                           .poisson = poisson,
-                          .squared = 3 * plane * w * w * w * w / (t * t),
+                          .squared = w * w * w * w * plain.EA / (4 * plain.EI),
                           .softens = softens};
 }
 
