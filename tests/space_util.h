@@ -38,7 +38,7 @@ static inline void rod_straight(Rod *r, size_t nodes, double length, const ZpSpa
   const double l = length / (double)(nodes - 1);
   r->params = (ZpSpaceRodParams){.nodes = nodes, .l = l, .S = EA / l, .section = *section};
   zp_space_points(&r->params, held, flat, r->point, r->warp);
-  r->rod = (ZpSpaceRod){r->at, r->edge, r->joint};
+  r->rod = (ZpSpaceRod){.at = r->at, .edge = r->edge, .joint = r->joint};
   for (size_t i = 0; i <= nodes; i++)
     r->edge[i] = edge_along_x(l, normal_y, normal_z);
   for (size_t i = 0; i < nodes; i++)

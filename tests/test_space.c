@@ -319,7 +319,7 @@ TEST(turned_in_space) {
   uint64_t seed = 4;
   rod_shake(&rod, 2e-4, &seed);
   turned = rod;
-  turned.rod = (ZpSpaceRod){turned.at, turned.edge, turned.joint};
+  turned.rod = (ZpSpaceRod){.at = turned.at, .edge = turned.edge, .joint = turned.joint};
   turned.params.point = turned.point;
   turned.params.warp = turned.warp;
   double Q[3][3];

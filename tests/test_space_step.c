@@ -18,7 +18,7 @@ static Ends ends;
 static void join(Ends *e) {
   e->step = (ZpSpaceStep){e->turn, e->force, e->torque};
   e->end = e->start;
-  e->end.rod = (ZpSpaceRod){e->end.at, e->end.edge, e->end.joint};
+  e->end.rod = (ZpSpaceRod){.at = e->end.at, .edge = e->end.edge, .joint = e->end.joint};
 }
 
 static const double E = 200e9, poisson = 0.285, thin = 50e-6, wide = 12.7e-3;

@@ -25,27 +25,52 @@ static size_t leader_of(const ZpTies *ties, const ZpTie *tie) {
 static int swing_at(const ZpModel *model, size_t k) {
   const ZpTopology *t = &model->topology;
   const size_t node = k / 2;
-  if (!model->network->plane) return -1;
+  if (!model->network->plane || k >= 2 * model->count) return -1;
   if (node == zp_lower(t, t->platform.first)) return (int)(k % 2);
   return node == zp_lower(t, t->platform.last) ? 2 + (int)(k % 2) : -1;
+}
+
+/* Coordinates of a station: x and y of its nodes; in space then z and angle of each. */
+static size_t of_station(const ZpAssembly *a) {
+  return a->axes * a->s;
+}
+
+/* The c-th of them. */
+static size_t coordinate_of(const ZpAssembly *a, size_t station, size_t c) {
+  const size_t behind = c < 2 * a->s ? 0 : 2;
+  return behind * a->count + 2 * a->s * station + c - behind * a->s;
+}
+
+/* The station of a coordinate. */
+static size_t station_of(const ZpAssembly *a, size_t k) {
+  return k % (2 * a->count) / (2 * a->s);
+}
+
+static size_t coordinates(const ZpAssembly *a) {
+  return a->axes * a->count;
+}
+
+/* One coordinate gets the next number, that of another one, or none => the next number. */
+static int number_one(const ZpTies *ties, size_t k, int next, ZpAssembly *a) {
+  const ZpTie *tie = zp_tie_of(ties, k);
+  const int swing = swing_at(ties->first + ties->member, k);
+  const size_t leader = tie ? leader_of(ties, tie) : k;
+  if (swing >= 0) {
+    a->equation[k] = -2 - swing;
+    return next;
+  }
+  a->factor[k] = tie ? tie->factor : 1;
+  a->offset[k] = tie ? tie->offset : 0;
+  a->equation[k] = a->factor[k] == 0 ? -1 : leader < k ? a->equation[leader] : next++;
+  return next;
 }
 
 /* Station by station: coordinates of its nodes, then unknowns of the laws. */
 static size_t number(const ZpTies *ties, ZpAssembly *a) {
   int next = 0;
   for (size_t i = 0; i < a->nodes; i++) {
-    for (size_t k = 2 * a->s * i; k < 2 * a->s * (i + 1); k++) {
-      const ZpTie *tie = zp_tie_of(ties, k);
-      const int swing = swing_at(ties->first + ties->member, k);
-      size_t leader = tie ? leader_of(ties, tie) : k;
-      if (swing >= 0) {
-        a->equation[k] = -2 - swing;
-        continue;
-      }
-      a->factor[k] = tie ? tie->factor : 1;
-      a->offset[k] = tie ? tie->offset : 0;
-      a->equation[k] = a->factor[k] == 0 ? -1 : leader < k ? a->equation[leader] : next++;
-    }
+    for (size_t c = 0; c < of_station(a); c++)
+      next = number_one(ties, coordinate_of(a, i, c), next, a);
     for (size_t c = 0; c < a->own; c++)
       a->extra_equation[a->own * i + c] = next++;
   }
@@ -59,7 +84,7 @@ static void find_parts(const ZpTies *ties, ZpAssembly *a) {
   if (zp_half_elements(&ties->first[ties->member].topology) == 0) return;
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
     if (tie->factor == 0) continue;
-    if (leader_of(ties, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))
+    if (station_of(a, leader_of(ties, tie)) != station_of(a, tie->coordinate))
       parts->common[parts->count++] = (size_t)a->equation[tie->coordinate];
   }
   parts->more = parts->count > 0;
@@ -67,7 +92,7 @@ static void find_parts(const ZpTies *ties, ZpAssembly *a) {
 
 /* Number of equations of a station whose coordinates are free. */
 static size_t per_station(const ZpAssembly *a) {
-  return 2 * a->s + a->own;
+  return of_station(a) + a->own;
 }
 
 /* Is it in the band of the block? */
@@ -77,7 +102,7 @@ static bool is_inner(const ZpAssembly *a, int place) {
 
 /* The place of the first coordinate of station i, if those of stations i .. i + 2 all follow it; else -1. */
 static int first_of(const ZpAssembly *a, size_t i) {
-  if (i + 2 >= a->nodes) return -1;
+  if (i + 2 >= a->nodes || a->axes > ZP_PLANE_AXES) return -1;
   int first = a->place[2 * a->s * i];
   for (size_t m = 0; m < 3; m++)
     for (size_t c = 0; c < 2 * a->s; c++) {
@@ -90,8 +115,11 @@ static int first_of(const ZpAssembly *a, size_t i) {
 /* Smallest (sign -1) or largest place in the band of stations i .. end - 1; -1: they have none. */
 static int outermost(const ZpAssembly *a, size_t i, size_t end, int sign) {
   int most = -1;
-  for (size_t k = 2 * a->s * i; k < 2 * a->s * least(end, a->nodes); k++)
-    if (is_inner(a, a->place[k]) && (most < 0 || sign * a->place[k] > sign * most)) most = a->place[k];
+  for (; i < least(end, a->nodes); i++)
+    for (size_t c = 0; c < of_station(a); c++) {
+      const int place = a->place[coordinate_of(a, i, c)];
+      if (is_inner(a, place) && (most < 0 || sign * place > sign * most)) most = place;
+    }
   return most;
 }
 
@@ -139,22 +167,27 @@ static void find_form(ZpAssembly *a) {
 
 bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *a) {
   const ZpModel *model = ties->first + ties->member;
-  *a = (ZpAssembly){
-      .s = model->s, .nodes = model->nodes, .count = model->count, .stride = model->stride, .own = own, .port = -1};
+  *a = (ZpAssembly){.s = model->s,
+                    .nodes = model->nodes,
+                    .count = model->count,
+                    .stride = model->stride,
+                    .axes = model->axes,
+                    .own = own,
+                    .port = -1};
   a->parts.common = zp_calloc(ZP_MOST_TIES, sizeof *a->parts.common);
   int **integers[] = {&a->equation, &a->place, &a->extra_equation, &a->extra_place, &a->first};
-  const size_t counts[] = {2 * a->count, 2 * a->count, own * a->nodes + 1, own * a->nodes + 1, a->nodes};
+  const size_t counts[] = {coordinates(a), coordinates(a), own * a->nodes + 1, own * a->nodes + 1, a->nodes};
   bool made = true;
   for (size_t k = 0; k < sizeof integers / sizeof integers[0]; k++)
     made &= (*integers[k] = zp_calloc(counts[k], sizeof **integers[k])) != NULL;
-  a->factor = zp_calloc(2 * a->count, sizeof *a->factor);
-  a->offset = zp_calloc(2 * a->count, sizeof *a->offset);
+  a->factor = zp_calloc(coordinates(a), sizeof *a->factor);
+  a->offset = zp_calloc(coordinates(a), sizeof *a->offset);
   if (!made || !a->factor || !a->offset || !a->parts.common) {
     zp_assembly_destroy(a);
     return false;
   }
   a->n = a->block.n = number(ties, a);
-  memcpy(a->place, a->equation, 2 * a->count * sizeof *a->place);
+  memcpy(a->place, a->equation, coordinates(a) * sizeof *a->place);
   memcpy(a->extra_place, a->extra_equation, own * a->nodes * sizeof *a->extra_place);
   find_parts(ties, a);
   a->block.band.symmetric = symmetric;
@@ -283,9 +316,9 @@ static void renumber(size_t count, const int *of, int *places) {
 /* Number the equations of a member among those of all. */
 static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_t n) {
   const size_t own = a->own * a->nodes;
-  renumber(2 * a->count, of, a->place);
+  renumber(coordinates(a), of, a->place);
   renumber(own, of, a->extra_place);
-  for (size_t k = 0; k < 2 * a->count; k++)
+  for (size_t k = 0; k < coordinates(a); k++)
     if (a->place[k] >= 0) a->equation[k] = equation_at(a, a->place[k], first, inner);
   for (size_t c = 0; c < own; c++)
     a->extra_equation[c] = equation_at(a, a->extra_place[c], first, inner);
@@ -369,19 +402,13 @@ void zp_assembly_destroy(ZpAssembly *a) {
 /* -- values ----------------------------------------------------------------------------------------- */
 
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
-  for (size_t j = 0; j < a->count; j++)
-    for (size_t c = 0; c < 2; c++) {
-      size_t k = 2 * j + c;
-      if (a->equation[k] >= 0) equations[a->equation[k]] = a->factor[k] * nodes[j + c * a->stride];
-    }
+  for (size_t k = 0; k < coordinates(a); k++)
+    if (a->equation[k] >= 0) equations[a->equation[k]] = a->factor[k] * nodes[zp_place_of(k, a->count, a->stride)];
 }
 
 void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nodes) {
-  for (size_t j = 0; j < a->count; j++)
-    for (size_t c = 0; c < 2; c++) {
-      size_t k = 2 * j + c;
-      if (a->equation[k] >= 0) nodes[j + c * a->stride] = zp_assembly_position(a, k, equations);
-    }
+  for (size_t k = 0; k < coordinates(a); k++)
+    if (a->equation[k] >= 0) nodes[zp_place_of(k, a->count, a->stride)] = zp_assembly_position(a, k, equations);
 }
 
 double zp_assembly_swung(const ZpSwing *swing, const double *step) {
@@ -391,9 +418,10 @@ double zp_assembly_swung(const ZpSwing *swing, const double *step) {
   return sum;
 }
 
-/* Coordinate 2 j + c => where it is among nodes [2 stride]. */
-static double *of_nodes(const ZpAssembly *a, size_t coordinate, double *nodes) {
-  return nodes + coordinate / 2 + coordinate % 2 * a->stride;
+/* Coordinates behind x and y. */
+static void changes_in_space(const ZpAssembly *a, const double *step, double *nodes) {
+  for (size_t k = 2 * a->count; k < coordinates(a); k++)
+    nodes[zp_place_of(k, a->count, a->stride)] = a->equation[k] >= 0 ? a->factor[k] * step[a->equation[k]] : 0;
 }
 
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
@@ -405,9 +433,11 @@ void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, doubl
     x[j] = of_x >= 0 ? factor[2 * j] * step[of_x] : 0;
     y[j] = of_y >= 0 ? factor[2 * j + 1] * step[of_y] : 0;
   }
+  if (a->axes > ZP_PLANE_AXES) changes_in_space(a, step, nodes);
   if (a->swing->count == 0) return;
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (equation[k] < -1) *of_nodes(a, k, nodes) = zp_assembly_swung(&a->swing[-2 - equation[k]], step);
+    if (equation[k] < -1)
+      nodes[zp_place_of(k, a->count, a->stride)] = zp_assembly_swung(&a->swing[-2 - equation[k]], step);
 }
 
 /* A force on a coordinate that has a swing, by the unknowns of its bodies. */
@@ -420,7 +450,7 @@ static void add_swing(const ZpAssembly *a, size_t k, bool by_place, double force
 
 static void add_swings(const ZpAssembly *a, bool by_place, const double *nodes, double *sums) {
   for (size_t k = 0; a->swing->count > 0 && k < 2 * a->count; k++)
-    if (a->equation[k] < -1) add_swing(a, k, by_place, nodes[k / 2 + k % 2 * a->stride], sums);
+    if (a->equation[k] < -1) add_swing(a, k, by_place, nodes[zp_place_of(k, a->count, a->stride)], sums);
 }
 
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
@@ -441,6 +471,8 @@ static void add_by(const ZpAssembly *a, const int *number, const double *restric
     if (of_x >= 0) sums[of_x] += factor[2 * j] * x[j];
     if (of_y >= 0) sums[of_y] += factor[2 * j + 1] * y[j];
   }
+  for (size_t k = 2 * a->count; k < coordinates(a); k++)
+    if (number[k] >= 0) sums[number[k]] += factor[k] * nodes[zp_place_of(k, a->count, a->stride)];
 }
 
 void zp_assembly_add_free(const ZpAssembly *a, const double *nodes, double *equations) {

@@ -1,5 +1,5 @@
 /* Equations of an actuator: which coordinate has which, and how the derivatives of its laws go into a banded matrix
- * over them. Coordinate x of node j is at [2 j], y at [2 j + 1]; -1: held. */
+ * over them. Coordinates are numbered as in topology.h; -1: held. */
 #ifndef ZP_ACTUATOR_ASSEMBLE_H
 #define ZP_ACTUATOR_ASSEMBLE_H
 
@@ -20,18 +20,19 @@ typedef struct ZpSwing {
 typedef struct ZpAssembly {
   size_t s, nodes;    /* ribbons; stations, N */
   size_t count;       /* nodes */
-  size_t stride;      /* arrays over nodes: all x, then, so much further, all y */
+  size_t stride;      /* arrays over nodes: all x, then, so much further, all y, and so on */
+  size_t axes;        /* coordinates of a node */
   size_t n;           /* equations, of all members of a system */
   ZpArrowBlock block; /* of the matrix of the system: node i meets nodes i - 2 .. i + 2. A symmetric band keeps its
                          upper triangle only, in groups of a station, or of two of one ribbon, if they fit */
-  int *equation;      /* [2 count] numbered station by station; coordinates that are always the same share theirs; -1:
-                         held; below: -2 - k of the coordinate that has swing k */
-  int *place;         /* [2 count] row and column in the block; those from block.n on are in its border */
-  ZpParts parts;      /* halves, and the equations that both have */
-  size_t own;         /* unknowns of the laws at each station, which come after its coordinates */
-  long port;          /* the common unknown that it meets (zp_assembly_join); below 0: none */
+  int *equation; /* [axes count] numbered station by station; coordinates that are always the same share theirs; -1:
+                    held; below: -2 - k of the coordinate that has swing k */
+  int *place;    /* [axes count] row and column in the block; those from block.n on are in its border */
+  ZpParts parts; /* halves, and the equations that both have */
+  size_t own;    /* unknowns of the laws at each station, which come after its coordinates */
+  long port;     /* the common unknown that it meets (zp_assembly_join); below 0: none */
   int *extra_equation, *extra_place; /* [own N] */
-  double *factor, *offset;           /* [2 count] a coordinate is this times its unknown plus this, m */
+  double *factor, *offset;           /* [axes count] a coordinate is this times its unknown plus this, m, rad */
   ZpSwing swing[ZP_SWINGS];          /* in the plane: x and y of the left and of the right end of the lower platform */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: place of the first of station i, the others
                  following it; else -1 */
@@ -51,7 +52,7 @@ bool zp_assembly_join(ZpAssembly *const assembly[], const ZpModel *first, size_t
 /* The unknowns that the halves of any member have in common, of n of the system. False if there is no memory. */
 bool zp_assembly_parts(ZpAssembly *const assembly[], size_t members, size_t n, ZpParts *parts);
 
-/* Changes or rates of nodes [2 stride] => of equations [n]; positions of equations => of nodes, where what is held
+/* Changes or rates of nodes [axes stride] => of equations [n]; positions of equations => of nodes, where what is held
  * stays as it is. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_place(const ZpAssembly *assembly, const double *equations, double *nodes);
@@ -69,15 +70,16 @@ static inline double zp_assembly_position(const ZpAssembly *a, size_t coordinate
   return a->factor[coordinate] * equations[a->equation[coordinate]] + a->offset[coordinate];
 }
 
-/* Changes or rates of equations => of all coordinates of nodes [2 stride], 0 of what is held. */
+/* Changes or rates of equations => of all coordinates of nodes [axes stride], 0 of what is held. */
 void zp_assembly_changes(const ZpAssembly *assembly, const double *step, double *nodes);
 
-/* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */
+/* equations [n] += forces on nodes [axes stride], summed over what has the same equation; += a force on one coordinate.
+ */
 void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_add_free(const ZpAssembly *assembly, const double *nodes, double *equations); /* but on swings */
 void zp_assembly_add_one(const ZpAssembly *assembly, size_t coordinate, double force, double *equations);
 
-/* Forces on nodes [2 stride] => sums over what has the same equation [n]; equations [n] += masses [count]. */
+/* Forces on nodes [axes stride] => sums over what has the same equation [n]; equations [n] += masses [count]. */
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, double *equations);
 

@@ -861,6 +861,7 @@ static void derive(ZpModel *model) {
   model->nodes = t->stations;
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
+  model->axes = ZP_PLANE_AXES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
   model->flat = zp_def_has(def, ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH) && !two;
   derive_pouch(model);
@@ -1137,7 +1138,7 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + (12 * model->stride + zp_extra_unknowns(model) + model->kept + model->ledger.rows +
+  return sizeof(ZpState) + (6 * zp_coordinates(model) + zp_extra_unknowns(model) + model->kept + model->ledger.rows +
                             zp_state_bodies_size(model) + zp_state_pushes_size(model)) *
                                sizeof(double);
 }

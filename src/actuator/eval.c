@@ -53,9 +53,9 @@ static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_arena_take(&arena, model->nodes);
   e->D = zp_arena_take_of(&arena, 3 * model->stride, sizeof *e->D);
-  e->mean_v = zp_arena_take(&arena, 2 * model->stride);
-  e->by_volume = zp_arena_take(&arena, model->pouch.w > 0 ? 2 * model->stride : 0);
-  e->unused = zp_arena_take(&arena, 2 * model->stride);
+  e->mean_v = zp_arena_take(&arena, zp_coordinates(model));
+  e->by_volume = zp_arena_take(&arena, model->pouch.w > 0 ? zp_coordinates(model) : 0);
+  e->unused = zp_arena_take(&arena, zp_coordinates(model));
   e->none = zp_arena_take(&arena, model->stride);
   return arena.used;
 }
@@ -142,7 +142,7 @@ double zp_eval_weight_scale(const ZpModel *model) {
 
 double zp_eval_imbalance(const ZpModel *model, const double *a) {
   double largest = 0;
-  for (size_t k = 0; k < 2 * model->stride; k++)
+  for (size_t k = 0; k < zp_coordinates(model); k++)
     if (!(fabs(a[k]) <= largest)) largest = fabs(a[k]);
   return largest * model->pseudo_mass / zp_eval_weight_scale(model);
 }

@@ -2,8 +2,8 @@
  *
  * Node i of ribbon r is at [i * s + r] (topology.h). Arrays over nodes have `stride` places, a multiple of ZP_LANES, so
  * that kernels need no remainder, over edges either; places beyond `count` hold nodes that lie on the prolonged ribbon,
- * weigh nothing and never move. Coordinates q hold all x, then all y, `stride` apart; velocities v and accelerations a
- * likewise.
+ * weigh nothing and never move. Coordinates q hold all x, then all y, in space also all z and the angles of all edges,
+ * `stride` apart; velocities v and accelerations a likewise.
  */
 #ifndef ZP_ACTUATOR_MODEL_H
 #define ZP_ACTUATOR_MODEL_H
@@ -101,6 +101,7 @@ struct ZpModel {
   ZpTopology topology;
   size_t s, nodes, count; /* of it: ribbons, stations, nodes */
   size_t stride;          /* count, rounded up */
+  size_t axes;            /* coordinates of a node: ZP_PLANE_AXES or ZP_SPACE_AXES */
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
   bool flat;              /* one ribbon below a rigid electrode */
@@ -212,13 +213,18 @@ typedef struct ZpState {
   double starved_time;     /* when a zip front had outrun its bead, s; NAN: it has not */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
-  double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
-                    mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
+  double data[]; /* of all coordinates: q, v, held force, where it was found, mean velocity and acceleration of the last
+                    implicit step; the laws' own unknowns [own N]
                     and state [kept], the ledger [rows]; of the first member bodies in the plane (zp_state_bodies) */
 } ZpState;
 
 /* Bytes. */
 size_t zp_state_size(const ZpModel *model);
+
+/* How many numbers q has. */
+static inline size_t zp_coordinates(const ZpModel *model) {
+  return model->axes * model->stride;
+}
 
 /* Where the coordinates and velocities of a state stand. */
 static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
@@ -227,7 +233,7 @@ static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
 }
 
 static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
-  return state->data + 2 * model->stride;
+  return state->data + zp_coordinates(model);
 }
 
 /* Does a voltage act on anything: electrodes that attract, or curvature that it drives? */
@@ -453,7 +459,7 @@ static inline double zp_straight_x(const ZpModel *model, size_t station) {
 static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   const ZpJoint *platform = &model->topology.platform;
   if (zp_half_elements(&model->topology) == 0) return;
-  for (size_t k = 0; k < 2 * model->stride; k++)
+  for (size_t k = 0; k < (model->axes == ZP_SPACE_AXES ? 3 : 2) * model->stride; k++)
     q[k] *= stretch;
   if (platform->first == platform->last) return;
   size_t right = zp_upper(&model->topology, platform->last);
@@ -576,7 +582,7 @@ static inline ZpForces zp_forces(const ZpModel *model, double *F) {
 
 /* Coordinate k of q; of k = 0 and 1 x and y of all nodes. */
 static inline double *zp_coordinate(const ZpModel *model, double *q, size_t k) {
-  return q + k / 2 + k % 2 * model->stride;
+  return q + zp_place_of(k, model->count, model->stride);
 }
 
 /* [stride] of q those along which the load pulls. */
@@ -584,13 +590,9 @@ static inline double *zp_pulled_of(const ZpModel *model, double *q) {
   return zp_coordinate(model, q, zp_pulled(&model->topology, 0));
 }
 
-/* How many numbers x or y has, whole lanes, and both have. */
+/* How many numbers x has, whole lanes. */
 static inline size_t zp_lanes(const ZpModel *model) {
   return model->stride;
-}
-
-static inline size_t zp_coordinates(const ZpModel *model) {
-  return 2 * model->stride;
 }
 
 /* A state by axis, for reading. */
@@ -599,23 +601,23 @@ typedef struct ZpMotion {
 } ZpMotion;
 
 static inline ZpMotion zp_state_motion(const ZpModel *model, const ZpState *state) {
-  const double *q = state->data, *v = q + 2 * model->stride;
+  const double *q = state->data, *v = q + zp_coordinates(model);
   return (ZpMotion){q, q + model->stride, v, v + model->stride};
 }
 
-/* The force that is held between refreshes, all x, then all y: N, or of a solved field N/V^2 beyond plates. */
+/* The force that is held between refreshes, of all coordinates: N, or of a solved field N/V^2 beyond plates. */
 static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
-  return state->data + 4 * model->stride;
+  return state->data + 2 * zp_coordinates(model);
 }
 
 /* The coordinates at which it was found. */
 static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
-  return state->data + 6 * model->stride;
+  return state->data + 3 * zp_coordinates(model);
 }
 
 /* For reading. */
 static inline const double *zp_held_force(const ZpModel *model, const ZpState *state) {
-  return state->data + 4 * model->stride;
+  return state->data + 2 * zp_coordinates(model);
 }
 
 /* Of all stations. */
@@ -625,12 +627,12 @@ static inline size_t zp_extra_unknowns(const ZpModel *model) {
 
 /* Unknowns of the laws, [own N] station by station. */
 static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
-  return state->data + 12 * model->stride;
+  return state->data + 6 * zp_coordinates(model);
 }
 
 /* State of the laws, [kept], law by law. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
-  return state->data + 12 * model->stride + zp_extra_unknowns(model);
+  return state->data + 6 * zp_coordinates(model) + zp_extra_unknowns(model);
 }
 
 /* The law of a term in a model; NULL: it has none. */
@@ -653,7 +655,7 @@ static inline double *zp_law_state(const ZpModel *model, const struct ZpTerm *te
 
 /* The ledger, [rows]: what rows of losses have lost since it was opened, and what rows of energies held then, J. */
 static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
-  return state->data + 12 * model->stride + zp_extra_unknowns(model) + model->kept;
+  return state->data + 6 * zp_coordinates(model) + zp_extra_unknowns(model) + model->kept;
 }
 
 /* Of a network, in the state of its first member: forces and torques that a program sets on bodies, [bodies][3]. */
@@ -711,11 +713,11 @@ static inline double *zp_state_row(const ZpModel *model, ZpState *state, const Z
 
 /* Mean velocity and mean acceleration over the last implicit step. */
 static inline double *zp_state_mean_v(const ZpModel *model, ZpState *state) {
-  return state->data + 8 * model->stride;
+  return state->data + 4 * zp_coordinates(model);
 }
 
 static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
-  return state->data + 10 * model->stride;
+  return state->data + 5 * zp_coordinates(model);
 }
 
 /* As zp_model_create_driven, but without laws. */

@@ -3,7 +3,8 @@
  * station. docs/theory.md, section 19.
  *
  * Stations are numbered from left to right. Node j = station * ribbons + ribbon; of two ribbons, 0 is the upper one.
- * Coordinate k = 2 j is x of node j, 2 j + 1 its y. */
+ * Coordinate k = 2 j is x of node j, 2 j + 1 its y; behind those of all nodes are 2 j its z and 2 j + 1 the angle of
+ * the edge from it to the right, of a model in space. */
 #ifndef ZP_ACTUATOR_TOPOLOGY_H
 #define ZP_ACTUATOR_TOPOLOGY_H
 
@@ -89,6 +90,23 @@ static inline size_t zp_x_of(size_t node) {
 
 static inline size_t zp_y_of(size_t node) {
   return 2 * node + 1;
+}
+
+enum { ZP_PLANE_AXES = 2, ZP_SPACE_AXES = 4 };
+
+/* In space. */
+static inline size_t zp_z_of(size_t nodes, size_t node) {
+  return 2 * nodes + 2 * node;
+}
+
+static inline size_t zp_roll_of(size_t nodes, size_t node) {
+  return 2 * nodes + 2 * node + 1;
+}
+
+/* Where coordinate k stands in arrays that hold all x, then all y, all z and all angles, `stride` apart. */
+static inline size_t zp_place_of(size_t k, size_t nodes, size_t stride) {
+  const size_t behind = k < 2 * nodes ? 0 : 2;
+  return (k - behind * nodes) / 2 + (behind + k % 2) * stride;
 }
 
 static inline bool zp_is_pair(const ZpTopology *t) {

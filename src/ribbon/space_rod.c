@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "ribbon/space_angle.h"
+
 /* -- points ---------------------------------------------------------------------------------------- */
 
 /* A joint at a held slope and the next one, over 1.5 elements: curvatures at both from their turns, eq. (8.9), and the
@@ -115,10 +117,22 @@ static bool is_held_way(const ZpSpaceRodParams *p, size_t joint, int way) {
   return before ? joint == 0 : joint + 1 == p->nodes;
 }
 
+/* Derivatives of a joint, by angles that are counted as those of the rod are. */
+static void count_joint(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, size_t j, bool second) {
+  if (!p->from) return;
+  const ZpSpaceAngle before = zp_space_angle(p->from, &rod->edge[j]),
+                     after = zp_space_angle(p->from, &rod->edge[j + 1]);
+  if (second)
+    zp_space_count_joint_second(&before, &after, &rod->joint[j]);
+  else
+    zp_space_count_joint(&before, &after, &rod->joint[j]);
+}
+
 void zp_space_turn_joints(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
   for (size_t j = 0; j < p->nodes; j++) {
     ZpSpaceJoint *joint = &rod->joint[j];
     zp_space_joint(&rod->edge[j], &rod->edge[j + 1], joint);
+    count_joint(p, rod, j, false);
     memset(joint->moment, 0, sizeof joint->moment);
     memset(joint->stiffness, 0, sizeof joint->stiffness);
     for (int way = 0; way < ZP_SPACE_WAYS; way++)
@@ -131,6 +145,7 @@ static void turn_joints_twice(const ZpSpaceRodParams *p, ZpSpaceRod *rod) {
   for (size_t j = 0; j < p->nodes; j++) {
     ZpSpaceJoint *joint = &rod->joint[j];
     zp_space_joint_second(&rod->edge[j], &rod->edge[j + 1], joint);
+    count_joint(p, rod, j, true);
     for (int a = 0; a < ZP_SPACE_WAYS; a++)
       for (int b = 0; b < ZP_SPACE_WAYS && is_held_way(p, j, a); b++)
         for (int s = 0; s < ZP_SPACE_STRAINS; s++)
@@ -249,7 +264,7 @@ static void add_joint(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, size_t j
 static void stretching(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, double *K) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     const ZpSpaceEdge *edge = &rod->edge[i + 1];
-    const double T = p->S * (edge->length - p->l) / edge->length;
+    const double T = (rod->tension ? rod->tension[i] : p->S * (edge->length - p->l)) / edge->length;
     const long at = (long)(ZP_SPACE_OF_NODE * i);
     for (long a = 0; a < 3; a++)
       for (long b = 0; b < 3; b++) {

@@ -38,6 +38,8 @@ typedef struct ZpSpaceRodParams {
   double natural[ZP_SPACE_STRAINS]; /* curvatures and twist of the rod at rest, 1/m */
   const ZpSpacePoint *point;
   const ZpSpaceWarp *warp;
+  const double *from; /* [3] the tangent from which the angles of all edges are counted (space_angle.h); NULL: its own
+                         present one */
 } ZpSpaceRodParams;
 
 /* Of a rod of four nodes or more, with slopes held at its ends or not, and the section held flat where they are held or
@@ -45,9 +47,10 @@ typedef struct ZpSpaceRodParams {
 void zp_space_points(ZpSpaceRodParams *params, const bool held[2], bool flat, ZpSpacePoint *point, ZpSpaceWarp *warp);
 
 typedef struct ZpSpaceRod {
-  double (*at)[3];     /* [nodes] positions, m */
-  ZpSpaceEdge *edge;   /* [nodes + 1] edge i + 1 from node i to the next; the first and the last: held slopes */
-  ZpSpaceJoint *joint; /* [nodes] */
+  double (*at)[3];       /* [nodes] positions, m */
+  ZpSpaceEdge *edge;     /* [nodes + 1] edge i + 1 from node i to the next; the first and the last: held slopes */
+  ZpSpaceJoint *joint;   /* [nodes] */
+  const double *tension; /* [nodes - 1] with which the stiffness is found, N; NULL: that of the edges */
 } ZpSpaceRod;
 
 /* From positions, with the frames that the edges have at their present tangents, turned by angles [nodes - 1] (NULL:
