@@ -747,6 +747,11 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
   add(a, row, column, value, K);
 }
 
+void zp_assemble_pair(const ZpAssembly *a, size_t one, size_t other, double value, ZpBand *K) {
+  add(a, one, other, value, K);
+  if (one != other) add(a, other, one, value, K);
+}
+
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
   const size_t up = 2 * a->s * station + 1, low = up + 2 * (a->s - 1);
   const int row = a->place[up], column = a->place[low];

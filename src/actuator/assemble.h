@@ -102,6 +102,9 @@ void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);
 
+/* K += a second derivative by two coordinates, in both of its places; where they are the same one, in one. */
+void zp_assemble_pair(const ZpAssembly *assembly, size_t one, size_t other, double value, ZpBand *K);
+
 /* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
 void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,
                          ZpBand *K);

@@ -354,6 +354,8 @@ typedef struct Arrays {
   double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
   double *face, *face_x;                    /* [nodes] of a counter electrode */
   double *time, *voltage;                   /* ZpDriveTable */
+  ZpSpacePoint *point;                      /* [3 nodes] of each ribbon in space */
+  ZpSpaceWarp *warp;                        /* [2 nodes] */
   double *turn;                             /* ZpDriven: [stride], and [stride] of each of its places */
   ZpDrivenPlace *driven;
 } Arrays;
@@ -376,6 +378,9 @@ static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a)
     a->inverse[k / 2][k % 2] = zp_arena_take(&arena, model->stride);
     a->pair[k / 2][k % 2] = zp_arena_take(&arena, model->nodes);
   }
+  const size_t in_space = zp_is_in_space(model) ? model->count : 0;
+  a->point = zp_arena_take_of(&arena, 3 * in_space, sizeof *a->point);
+  a->warp = zp_arena_take_of(&arena, 2 * in_space, sizeof *a->warp);
   a->face = zp_arena_take(&arena, model->nodes);
   a->face_x = zp_arena_take(&arena, model->nodes);
   a->time = zp_arena_take(&arena, rows);
@@ -561,6 +566,31 @@ static void fill_rod(ZpModel *model, Arrays *a) {
   model->rod = rod_of(model, a);
   fill_ends(model, a);
   fill_natural(model, a);
+}
+
+/* Of one layer, whose bending in the plane is that of the rod, eq. (41.1). A narrow strip does not curl. */
+static ZpSpaceSection space_section_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  ZpSpaceSection section = zp_space_section(def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.thickness,
+                                            def->ribbon.width, def->ribbon.plane == ZP_PLANE_ANTICLASTIC);
+  section.B = zp_ribbon_section(model, 0).EI;
+  if (def->ribbon.plane == ZP_PLANE_STRESS) section.squared = 0;
+  return section;
+}
+
+/* Ends that hold the slope hold the section flat there. */
+static void fill_space(ZpModel *model, Arrays *a) {
+  const ZpTopology *t = &model->topology;
+  for (size_t r = 0; zp_is_in_space(model) && r < model->s; r++) {
+    ZpSpaceRodParams *rod = &model->space[r];
+    *rod = (ZpSpaceRodParams){.nodes = model->nodes,
+                              .l = model->l,
+                              .S = zp_ribbon_section(model, r).EA / model->l,
+                              .section = space_section_of(model),
+                              .from = zp_space_along_x};
+    const bool held[] = {zp_topology_holds_slope(t, 0, r), zp_topology_holds_slope(t, model->nodes - 1, r)};
+    zp_space_points(rod, held, true, a->point + 3 * model->nodes * r, a->warp + 2 * model->nodes * r);
+  }
 }
 
 /* The spring in series with the half element that the joint beside it does not bend. */
@@ -796,7 +826,7 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
   bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) &&
-                def->ribbon.model == ZP_RIBBON_ROD && def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
+                def->ribbon.model != ZP_RIBBON_MASS_SPRING && def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
 }
@@ -827,9 +857,10 @@ static double spring_frequency(const ZpModel *model) {
 
 /* Direction of gravity, eq. (27.4). A component that is only the rounding of the angle is set to 0. */
 static void find_fall(ZpModel *model) {
-  double turns = model->def.mount.tilt / (2 * zp_pi) + (model->topology.along ? 0.25 : 0),
-         fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
-  for (int k = 0; k < 2; k++)
+  const double turns = model->def.mount.tilt / (2 * zp_pi) + (model->topology.along ? 0.25 : 0),
+               roll = model->def.mount.roll / (2 * zp_pi), down = zp_cosine_of(turns),
+               fall[3] = {zp_sine_of(turns), -down * zp_cosine_of(roll), -down * zp_sine_of(roll)};
+  for (int k = 0; k < 3; k++)
     model->fall[k] = fabs(fall[k]) < zp_tilt_rounding ? 0 : fall[k];
   model->pull[model->topology.along ? 0 : 1] = model->topology.along ? 1 : -1;
 }
@@ -861,7 +892,7 @@ static void derive(ZpModel *model) {
   model->nodes = t->stations;
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
-  model->axes = ZP_PLANE_AXES;
+  model->axes = def->ribbon.model == ZP_RIBBON_SPATIAL ? ZP_SPACE_AXES : ZP_PLANE_AXES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
   model->flat = zp_def_has(def, ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH) && !two;
   derive_pouch(model);
@@ -876,7 +907,7 @@ static void derive(ZpModel *model) {
   model->ribbon[1] = ribbon_of(lower, -1);
   model->series = series_of(def, lower);
   find_fall(model);
-  model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
+  model->is_rod = def->ribbon.model != ZP_RIBBON_MASS_SPRING;
   model->hinge = hinge_of(model);
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
@@ -1028,6 +1059,7 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
     fill_rod(model, &arrays);
   else
     fill_chain(model, &arrays);
+  fill_space(model, &arrays);
   fill_plastic(model);
   fill_branches(model);
   fill_stress(model, &arrays);

@@ -19,6 +19,22 @@ static void reserve_natural(const ZpModel *model, ZpNatural *n, ZpArena *arena) 
     n->k0[k] = zp_arena_take(arena, model->stride);
 }
 
+static void reserve_space(const ZpModel *model, ZpEval *e, ZpArena *arena) {
+  for (size_t r = 0; r < model->s; r++) {
+    ZpSpaceRod *rod = &e->space[r];
+    rod->at = zp_arena_take_of(arena, model->nodes, sizeof *rod->at);
+    rod->edge = zp_arena_take_of(arena, model->nodes + 1, sizeof *rod->edge);
+    rod->joint = zp_arena_take_of(arena, model->nodes, sizeof *rod->joint);
+    rod->tension = zp_arena_take(arena, model->nodes);
+    rod->sway = zp_arena_take(arena, model->nodes);
+  }
+  e->space_gradient = zp_arena_take(arena, ZP_SPACE_OF_NODE * model->nodes);
+  e->space_K = zp_arena_take(arena, ZP_SPACE_OF_NODE * model->nodes * (ZP_SPACE_BAND + 1));
+  e->sway = zp_arena_take(arena, model->stride);
+  e->dpz = zp_arena_take(arena, model->stride);
+  e->uz = zp_arena_take(arena, model->stride);
+}
+
 static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   zp_rod_reserve(&model->rod, &e->rod_start, arena);
   zp_rod_reserve(&model->rod, &e->rod, arena);
@@ -27,6 +43,7 @@ static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   if (model->driven.places > 0) reserve_natural(model, &e->natural, arena);
   const double *tension = model->rod.plastic ? e->rod_step.T : e->rod.T; /* less what yields */
   e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, tension, e->rod_step.Rx, e->rod_step.Ry};
+  if (zp_is_in_space(model)) reserve_space(model, e, arena);
   if (model->is_rod) return;
   zp_massspring_reserve(&model->spring, &e->spring_start, arena);
   zp_massspring_reserve(&model->spring, &e->spring, arena);

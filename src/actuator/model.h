@@ -33,6 +33,7 @@
 #include "ribbon/driven.h"
 #include "ribbon/rod_step.h"
 #include "ribbon/section.h"
+#include "ribbon/space_rod.h"
 #include "ribbon/stress.h"
 
 /* Masses along one axis. */
@@ -115,6 +116,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpMassSpringParams shear;          /* the same without axial springs */
   ZpRodParams rod;                   /* of mass_spring its axial springs only */
+  ZpSpaceRodParams space[2];         /* of each ribbon, in space */
   ZpDriven driven;                   /* natural curvature that voltage drives */
   ZpPlastic plastic[2];              /* of each ribbon, where ribbon.plasticity */
   ZpMaxwell branch[2 * ZP_BRANCHES]; /* of its layers, where they creep */
@@ -148,7 +150,7 @@ struct ZpModel {
   size_t in_series;    /* equal pouches: each is a part, and all have the same load; else 1 */
   double mirror;       /* share of gaps and voltage that is on this side of the middle plane: 1/2 of a pouch, else 1 */
   double stroke_by, stroke_at; /* the stroke is the first times how far the load hangs (zp_hangs_by), plus this, m */
-  double fall[2];              /* direction of gravity, x and y: a unit vector */
+  double fall[3];              /* direction of gravity: a unit vector */
   double pull[2];              /* that in which load.force acts */
   const double *weight;        /* [stride] of each node with its load, N */
   const double *mass;          /* [stride] kg */
@@ -224,6 +226,11 @@ size_t zp_state_size(const ZpModel *model);
 /* How many numbers q has. */
 static inline size_t zp_coordinates(const ZpModel *model) {
   return model->axes * model->stride;
+}
+
+/* Do ribbons leave the plane? */
+static inline bool zp_is_in_space(const ZpModel *model) {
+  return model->axes == ZP_SPACE_AXES;
 }
 
 /* Where the coordinates and velocities of a state stand. */
@@ -459,7 +466,7 @@ static inline double zp_straight_x(const ZpModel *model, size_t station) {
 static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   const ZpJoint *platform = &model->topology.platform;
   if (zp_half_elements(&model->topology) == 0) return;
-  for (size_t k = 0; k < (model->axes == ZP_SPACE_AXES ? 3 : 2) * model->stride; k++)
+  for (size_t k = 0; k < (zp_is_in_space(model) ? 3 : 2) * model->stride; k++)
     q[k] *= stretch;
   if (platform->first == platform->last) return;
   size_t right = zp_upper(&model->topology, platform->last);
@@ -576,6 +583,20 @@ static inline ZpNodes zp_nodes(const ZpModel *model, const double *q) {
   return (ZpNodes){q, q + model->stride};
 }
 
+/* Of all nodes: x (0), y (1), in space also z (2) and the angle of the edge to the right (3). */
+static inline double *zp_axis(const ZpModel *model, double *q, size_t axis) {
+  return q + axis * model->stride;
+}
+
+/* In space: the other two coordinates of all nodes. */
+static inline const double *zp_sides(const ZpModel *model, const double *q) {
+  return q + 2 * model->stride;
+}
+
+static inline const double *zp_rolls(const ZpModel *model, const double *q) {
+  return q + 3 * model->stride;
+}
+
 static inline ZpForces zp_forces(const ZpModel *model, double *F) {
   return (ZpForces){F, F + model->stride};
 }
@@ -593,6 +614,12 @@ static inline double *zp_pulled_of(const ZpModel *model, double *q) {
 /* How many numbers x has, whole lanes. */
 static inline size_t zp_lanes(const ZpModel *model) {
   return model->stride;
+}
+
+/* How many numbers a solver predicts for the stiffness: tensions of edges, in space behind them moments of joints about
+ * the normal. */
+static inline size_t zp_predicted(const ZpModel *model) {
+  return (zp_is_in_space(model) ? 2 : 1) * zp_lanes(model);
 }
 
 /* A state by axis, for reading. */

@@ -47,7 +47,11 @@ static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpS
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {
   ZpStressParams stress = model->stress;
   if (room->k0) stress.rod.k0 = room->k0;
-  zp_stress(&stress, shape->x, shape->y, room->strain, room->stress);
+  if (zp_is_in_space(model)) /* stresses of twisted strips are not known */
+    for (size_t j = 0; j < model->count; j++)
+      room->stress[j] = NAN;
+  else
+    zp_stress(&stress, shape->x, shape->y, room->strain, room->stress);
   shape->stress = room->stress;
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)

@@ -28,6 +28,25 @@ static void add_joint(ZpTies *ties, const ZpJoint *joint, bool hangs) {
   }
 }
 
+/* In space: clamps hold their stations in the plane of the ribbons; behind the last station there is no edge to turn.
+ */
+static void add_in_space(ZpTies *ties) {
+  const size_t member = ties->member;
+  const ZpModel *model = ties->first + member;
+  const ZpTopology *t = &model->topology;
+  for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++) {
+    const ZpJointWay *way = &zp_joint_way[joint->kind];
+    for (size_t j = model->s * joint->first; j < model->s * (joint->last + 1); j++) {
+      const size_t z = zp_z_of(model->count, j);
+      if (way->held[j % model->s][0] && way->held[j % model->s][1]) add(ties, (ZpTie){member, z, member, z, 0, 0, 0});
+    }
+  }
+  for (size_t j = model->count - model->s; j < model->count; j++) {
+    const size_t roll = zp_roll_of(model->count, j);
+    add(ties, (ZpTie){member, roll, member, roll, 0, 0, 0});
+  }
+}
+
 /* The coordinate of a member that is the height of the body at its upper or at its lower end. */
 static size_t height_at(const ZpModel *model, bool upper) {
   const ZpTopology *t = &model->topology;
@@ -72,6 +91,7 @@ static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   if (joined) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
     add_joint(&ties, joint, hangs);
+  if (zp_is_in_space(first + member)) add_in_space(&ties);
   return ties;
 }
 

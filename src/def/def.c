@@ -698,6 +698,10 @@ static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of the place of the load. */
 static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
   double most = zp_platform_length(def) / 2, offset = def->load.offset;
+  const double side = def->ribbon.width / 2;
+  if (fabs(def->load.across) > side)
+    return zp_fail(err, ZP_BAD_INPUT, "load.across = %g m: beside the ribbon; allowed are %g to %g m", def->load.across,
+                   -side, side);
   if (fabs(offset) <= most) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: outside the platform; allowed are %g to %g m", offset, -most,
                  most);

@@ -177,7 +177,7 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   ZP_RULE(EQUATION, ZP_SET(segment.length), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),                                \
           "the curl across a strip is modelled without segments, whose curl would change at a step"),                  \
       ZP_RULE(EQUATION, ZP_SET(segment.length), ZP_IS(ribbon.model, ZP_RIBBON_ROD),                                    \
-              "the paper's springs are those of a straight strip of one thickness")
+              "the paper's springs and strips in space are straight and of one thickness")
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.segment_K.curvature_lag), ZP_HAS(PAIR),

@@ -71,6 +71,9 @@ static void refine_nodes(const ZpRestMember *m, ZpRestMember *other, Half from, 
       for (size_t ribbon = 0; ribbon < s; ribbon++)
         zp_coordinate(other->model, other->q, c)[s * (to.first + i) + ribbon] =
             value_at(place, zp_coordinate(m->model, m->q, c) + ribbon, s);
+    for (size_t ribbon = 0; zp_is_in_space(m->model) && ribbon < s; ribbon++)
+      zp_axis(other->model, other->q, 2)[s * (to.first + i) + ribbon] =
+          value_at(place, zp_sides(m->model, m->q) + ribbon, s);
   }
 }
 
@@ -83,6 +86,9 @@ static void refine_tensions(const ZpRestMember *m, ZpRestMember *other, Half fro
     const Place place = linear(edges, fmin(fmax(u, 0), (double)edges.elements));
     for (size_t ribbon = 0; ribbon < s; ribbon++)
       other->tension[s * (to.first + i) + ribbon] = value_at(place, m->tension + ribbon, s);
+    for (size_t ribbon = 0; zp_is_in_space(m->model) && ribbon < s; ribbon++)
+      zp_axis(other->model, other->q, 3)[s * (to.first + i) + ribbon] =
+          value_at(place, zp_rolls(m->model, m->q) + ribbon, s);
   }
 }
 

@@ -23,7 +23,7 @@ static void reserve_member(ZpRestMember *m, const ZpModel *model, ZpArena *arena
   for (size_t k = 0; k < sizeof of_coordinates / sizeof of_coordinates[0]; k++)
     *of_coordinates[k] = zp_arena_take(arena, zp_coordinates(model));
   for (size_t k = 0; k < sizeof of_edges / sizeof of_edges[0]; k++)
-    *of_edges[k] = zp_arena_take(arena, zp_lanes(model));
+    *of_edges[k] = zp_arena_take(arena, zp_predicted(model));
 }
 
 static size_t reserve_solution(ZpStatics *s, void *block) {
@@ -58,7 +58,7 @@ void zp_statics_lay_straight(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
     if (m->idle) continue;
     zp_place_straight(m->model, m->q);
-    memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
+    memset(m->tension, 0, zp_predicted(m->model) * sizeof *m->tension);
   }
 }
 
@@ -190,6 +190,8 @@ void zp_statics_take_tensions(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
     memcpy(m->tension, m->eval.edges.T, edge_count(m) * sizeof *m->tension);
     m->tension[zp_pressure_place(m->model)] = m->eval.pressure;
+    if (zp_is_in_space(m->model))
+      memcpy(&m->tension[zp_lanes(m->model)], m->eval.sway, zp_lanes(m->model) * sizeof *m->tension);
   }
   zp_links_take(&s->links);
 }
@@ -228,7 +230,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, doubl
     } else {
       go_to_kept(s);
       for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-        memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
+        memset(m->tension, 0, zp_predicted(m->model) * sizeof *m->tension);
       step *= 0.25;
     }
   }
@@ -563,6 +565,23 @@ double zp_statics_stroke(const ZpStatics *s) {
 
 double zp_statics_opening(const ZpStatics *s) {
   return of_all(s, zp_statics_member_opening);
+}
+
+double zp_statics_lateral(const ZpStatics *s) {
+  const ZpRestMember *m = s->member;
+  return zp_sides(m->model, m->q)[zp_load_node(&m->model->topology)];
+}
+
+double zp_statics_skew(const ZpStatics *s) {
+  const ZpRestMember *m = s->member;
+  const ZpTopology *t = &m->model->topology;
+  const ZpSpaceRod *rod = &m->eval.space[m->model->s - 1];
+  const bool held = zp_topology_holds_slope(t, m->model->nodes - 1, m->model->s - 1);
+  const ZpSpaceEdge *last = &rod->edge[m->model->nodes - 1];
+  double width[3] = {0, 0, 1};
+  for (int c = 0; c < 3 && !held; c++)
+    width[c] = 1.5 * last->width[c] - 0.5 * (last - 1)->width[c]; /* from the middles of both edges */
+  return zp_angle(0 - width[1], width[2]);
 }
 
 double zp_statics_angle(const ZpStatics *s) {
@@ -988,9 +1007,31 @@ ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const doubl
   }
 }
 
+/* Rotation, without a sign and at least that of the angle of the edge, and stretch of all edges in space. */
+static void edges_in_space_under_step(ZpRestMember *m) {
+  const ZpModel *model = m->model;
+  const ZpEval *e = &m->eval;
+  const size_t s = model->s;
+  const ZpNodes moved = zp_nodes(model, m->moved);
+  const double *z = zp_sides(model, m->moved), *roll = zp_rolls(model, m->moved);
+  for (size_t j = 0; j < edge_count(m); j++) {
+    const double u[3] = {e->edges.ux[j], e->edges.uy[j], e->uz[j]},
+                 edge[3] = {e->edges.dpx[j], e->edges.dpy[j], e->dpz[j]};
+    double by[3] = {moved.x[j + s] - moved.x[j], moved.y[j + s] - moved.y[j], z[j + s] - z[j]};
+    m->stretch[j] = zp_space_dot(u, by);
+    zp_space_add(-m->stretch[j], u, by);
+    m->rotation[j] = sqrt(zp_space_dot(by, by)) / zp_space_dot(u, edge);
+    m->rotation[j] = fmax(m->rotation[j], fabs(roll[j]));
+  }
+}
+
 /* Rotation and stretch of all edges of a member under a step => m. */
 static void turn(ZpRestMember *m, const double *step) {
   zp_assembly_changes(&m->assembly, step, m->moved);
+  if (zp_is_in_space(m->model)) {
+    edges_in_space_under_step(m);
+    return;
+  }
   edges_under_step(edge_count(m), m->model->s, m->moved, zp_nodes(m->model, m->moved).y, &m->eval.edges, m->rotation,
                    m->stretch);
 }
@@ -1079,6 +1120,29 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
   }
 }
 
+/* In space m->moved has the changes of nodes, and becomes edge vectors; angles of edges move, too. */
+static void edges_in_space_turned(ZpRestMember *m, double fraction) {
+  const ZpModel *model = m->model;
+  const ZpEval *e = &m->eval;
+  const size_t s = model->s;
+  double *to[3] = {zp_axis(model, m->moved, 0), zp_axis(model, m->moved, 1), zp_axis(model, m->moved, 2)};
+  zp_space_predict(model, e, m->moved, fraction, &m->tension[zp_lanes(model)]);
+  for (size_t j = 0; j < edge_count(m); j++) {
+    const double u[3] = {e->edges.ux[j], e->edges.uy[j], e->uz[j]},
+                 edge[3] = {e->edges.dpx[j], e->edges.dpy[j], e->dpz[j]};
+    const double length = zp_space_dot(u, edge);
+    double t[3] = {to[0][j + s] - to[0][j], to[1][j + s] - to[1][j], to[2][j + s] - to[2][j]};
+    zp_space_add(-m->stretch[j], u, t);
+    for (int c = 0; c < 3; c++)
+      t[c] = u[c] + fraction / length * t[c];
+    const double l = (length + fraction * m->stretch[j]) / sqrt(zp_space_dot(t, t));
+    m->tension[j] = e->edges.T[j] + fraction * model->rod.S[j] * m->stretch[j];
+    for (int c = 0; c < 3; c++)
+      to[c][j] = l * t[c];
+    zp_axis(model, m->q, 3)[j] += fraction * zp_axis(model, m->moved, 3)[j];
+  }
+}
+
 /* Rotate and stretch each edge instead of moving its ends along straight lines. So a rotation does not stretch the
  * ribbon, whose axial stiffness is a million times its bending stiffness. The next stiffness uses the tensions that the
  * step predicts. Those of the rebuilt edges have an error of the square of the rotation times that million. => edge
@@ -1091,6 +1155,10 @@ static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
   turn(m, step);
   if (zp_pouch_rank(model) > 0)
     m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, &span, &m->eval, m->moved, fraction);
+  if (zp_is_in_space(model)) {
+    edges_in_space_turned(m, fraction);
+    return;
+  }
   edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }
@@ -1377,7 +1445,7 @@ static void save(void *self, void *to) {
   const ZpStatics *s = self;
   double *place = to;
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++) {
-    size_t coordinates = zp_coordinates(m->model), lanes = zp_lanes(m->model);
+    size_t coordinates = zp_coordinates(m->model), lanes = zp_predicted(m->model);
     memcpy(place, m->q, coordinates * sizeof *place);
     memcpy(place + coordinates, m->tension, lanes * sizeof *place);
     place += coordinates + lanes;
@@ -1394,7 +1462,7 @@ static void restore(void *self, const void *from) {
   ZpStatics *s = self;
   const double *place = from;
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
-    size_t coordinates = zp_coordinates(m->model), lanes = zp_lanes(m->model);
+    size_t coordinates = zp_coordinates(m->model), lanes = zp_predicted(m->model);
     memcpy(m->q, place, coordinates * sizeof *place);
     memcpy(m->tension, place + coordinates, lanes * sizeof *place);
     place += coordinates + lanes;
@@ -1452,7 +1520,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .alike = are_alike(s) ? s->members : 0,
                           .save = save,
                           .restore = restore,
-                          .save_size = (s->members * (zp_lanes(model) + zp_coordinates(model)) + 3 +
+                          .save_size = (s->members * (zp_predicted(model) + zp_coordinates(model)) + 3 +
                                         3 * (s->plane.bodies + model->network->joints)) *
                                        sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),

@@ -214,6 +214,11 @@ ZpNewtonInfo zp_statics_relax_until(ZpStatics *statics, bool (*enough)(void *use
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 double zp_statics_angle(const ZpStatics *statics);
+
+/* In space: how far the middle of the lower or right end has moved along z, m; by how much its width is turned about x
+ * out of the direction of z, rad, positive where the side at positive z is lower. */
+double zp_statics_lateral(const ZpStatics *statics);
+double zp_statics_skew(const ZpStatics *statics);
 size_t zp_statics_front(const ZpStatics *statics);
 
 /* Do electrodes without an insulator touch at the present voltage? */

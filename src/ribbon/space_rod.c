@@ -48,6 +48,8 @@ void zp_space_points(ZpSpaceRodParams *p, const bool held[2], bool flat, ZpSpace
   p->warp = warp;
 }
 
+const double zp_space_along_x[3] = {1, 0, 0};
+
 /* -- places ---------------------------------------------------------------------------------------- */
 
 void zp_space_place(const ZpSpaceRodParams *p, ZpSpaceRod *rod, const double *angle) {
@@ -229,11 +231,11 @@ static void add_product(const ZpSpaceRodParams *p, size_t ja, const double a[ZP_
     }
 }
 
-/* Second derivatives of the energy by the directions of a joint. */
-static void second_of(const ZpSpaceJoint *joint, double H[ZP_SPACE_WAYS][ZP_SPACE_WAYS]) {
+/* Second derivatives of the energy by the directions of a joint, with this moment about the normal. */
+static void second_of(const ZpSpaceJoint *joint, double sway, double H[ZP_SPACE_WAYS][ZP_SPACE_WAYS]) {
   for (int a = 0; a < ZP_SPACE_WAYS; a++)
     for (int b = 0; b < ZP_SPACE_WAYS; b++)
-      H[a][b] = joint->moment[0] * joint->second[0][a][b] + joint->moment[1] * joint->second[1][a][b] +
+      H[a][b] = joint->moment[0] * joint->second[0][a][b] + sway * joint->second[1][a][b] +
                 joint->moment[2] * joint->second[2][a][b];
   for (int s = 0; s < ZP_SPACE_STRAINS; s++) {
     double by[ZP_SPACE_WAYS];
@@ -248,7 +250,7 @@ static void second_of(const ZpSpaceJoint *joint, double H[ZP_SPACE_WAYS][ZP_SPAC
 
 static void add_joint(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, size_t joint, double *K) {
   double H[ZP_SPACE_WAYS][ZP_SPACE_WAYS], rows[ZP_SPACE_WAYS][WIDE], column[ZP_SPACE_WAYS], whole[WIDE];
-  second_of(&rod->joint[joint], H);
+  second_of(&rod->joint[joint], rod->sway ? rod->sway[joint] : rod->joint[joint].moment[ZP_SPACE_SWAY], H);
   for (int w = 0; w < ZP_SPACE_WAYS; w++)
     by_unknowns(H[w], rows[w]);
   const long first = ZP_SPACE_OF_NODE * ((long)joint - 1);
@@ -258,6 +260,27 @@ static void add_joint(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, size_t j
     by_unknowns(column, whole);
     for (long i = 0; i <= j; i++)
       add_entry(p, first + i, first + j, whole[i], K);
+  }
+}
+
+/* Change of a joint's strain of sway. */
+static double swayed(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, size_t joint, const double *step) {
+  double wide[WIDE], sum = 0;
+  by_unknowns(rod->joint[joint].gradient[ZP_SPACE_SWAY], wide);
+  const long first = ZP_SPACE_OF_NODE * ((long)joint - 1), end = (long)(ZP_SPACE_OF_NODE * p->nodes);
+  for (long i = 0; i < WIDE; i++)
+    if (first + i >= 0 && first + i < end) sum += wide[i] * step[first + i];
+  return sum;
+}
+
+void zp_space_sway_changes(const ZpSpaceRodParams *p, const ZpSpaceRod *rod, const double *step, double *change) {
+  memset(change, 0, p->nodes * sizeof *change);
+  for (const ZpSpacePoint *point = p->point; point < p->point + p->points; point++) {
+    double curvature = 0;
+    for (size_t j = 0; j < point->joints; j++)
+      curvature += point->bend[j] * swayed(p, rod, point->joint[j], step);
+    for (size_t j = 0; j < point->joints; j++)
+      change[point->joint[j]] += point->weight * point->bend[j] * p->section.B2 * curvature;
   }
 }
 

@@ -46,11 +46,15 @@ typedef struct ZpSpaceRodParams {
  * not => point [3 nodes at most], warp [2 nodes at most], and their numbers. */
 void zp_space_points(ZpSpaceRodParams *params, const bool held[2], bool flat, ZpSpacePoint *point, ZpSpaceWarp *warp);
 
+/* Tangent of a straight ribbon, from which angles of edges are counted. */
+extern const double zp_space_along_x[3];
+
 typedef struct ZpSpaceRod {
-  double (*at)[3];       /* [nodes] positions, m */
-  ZpSpaceEdge *edge;     /* [nodes + 1] edge i + 1 from node i to the next; the first and the last: held slopes */
-  ZpSpaceJoint *joint;   /* [nodes] */
-  const double *tension; /* [nodes - 1] with which the stiffness is found, N; NULL: that of the edges */
+  double (*at)[3];     /* [nodes] positions, m */
+  ZpSpaceEdge *edge;   /* [nodes + 1] edge i + 1 from node i to the next; the first and the last: held slopes */
+  ZpSpaceJoint *joint; /* [nodes] */
+  double *tension;     /* [nodes - 1] with which the stiffness is found, N; NULL: that of the edges */
+  double *sway;        /* [nodes] moments about the normal likewise, N m; NULL: those of the joints */
 } ZpSpaceRod;
 
 /* From positions, with the frames that the edges have at their present tangents, turned by angles [nodes - 1] (NULL:
@@ -70,6 +74,11 @@ double zp_space_warped(const ZpSpaceRod *rod, const ZpSpaceWarp *warp);
 
 /* Energy, J, of placed edges => joints; their gradient [4 nodes], N and N m (NULL: not needed). */
 double zp_space_energy(const ZpSpaceRodParams *params, ZpSpaceRod *rod, double *gradient);
+
+/* By how much a change [4 nodes] of the unknowns would change the moments of joints about the normal, to first order, N
+ * m
+ * => change [nodes]. After zp_space_energy. */
+void zp_space_sway_changes(const ZpSpaceRodParams *params, const ZpSpaceRod *rod, const double *step, double *change);
 
 /* Add the second derivatives, after zp_space_energy, to K: that by unknowns i and j >= i at K[i * (ZP_SPACE_BAND + 1) +
  * j - i]. */

@@ -140,6 +140,8 @@ static const ZpRule rule[] = {
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_NOT(ribbon.model, ZP_RIBBON_SPATIAL),
+            "voltages act on ribbons in a plane; use study stationary"),
 };
 const ZpRules zp_rules_equilibrium = ZP_RULES_OF(rule);
 

@@ -38,7 +38,7 @@ static bool is_estimated(ZpStudy study) {
 
 /* The paper's chain has coefficients for single meshes, and a resumed run has the mesh of its checkpoint. */
 static bool has_others(const ZpActuatorDef *def, bool moves) {
-  if (def->ribbon.model != ZP_RIBBON_ROD) return false;
+  if (def->ribbon.model == ZP_RIBBON_MASS_SPRING) return false;
   return !moves || (def->solver.integrator == ZP_INTEGRATOR_IMPLICIT && def->initial.state != ZP_INITIAL_CHECKPOINT);
 }
 

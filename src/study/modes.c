@@ -244,7 +244,8 @@ static const ZpRule rule_of_a_loop[] = {
 static const ZpRules rules_of_a_loop = ZP_RULES_OF(rule_of_a_loop);
 
 static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
+    ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+            "the shear law of mass_spring has no energy, and inertia in space is not modelled"),
     ZP_RULE_IF(NOT_MODELLED, ZP_LACKS(RIGID), ZP_IS(liquid.model, ZP_LIQUID_SUBMERGED),
                ZP_NOT(control.kind, ZP_CONTROL_NONE),
                "frequencies neglect the mass of the liquid, which is far larger than that of the ribbons; use "

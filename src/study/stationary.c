@@ -20,6 +20,38 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
+/* In space. */
+static const ZpColumn columns_in_space[] = {
+    {"station", "1", "number of the node, from the clamp"},
+    {"x_m", "m", "horizontal position of the middle of the ribbon"},
+    {"y_m", "m", "height of it"},
+    {"z_m", "m", "its position towards the viewer"},
+    {"roll_rad", "rad",
+     "angle of the edge to the right of the node about its tangent, from the frame that the shortest "
+     "rotation carries there from the clamp"},
+    {"tension_N", "N", "tension in that edge"},
+    {"twist_per_m", "1/m", "twist of the ribbon at the node"},
+};
+enum { COLUMNS_IN_SPACE = sizeof columns_in_space / sizeof columns_in_space[0] };
+
+static void fill_rows_in_space(const ZpStatics *s, ZpTable *table) {
+  const ZpRestMember *m = s->member;
+  const size_t last = m->model->nodes - 1;
+  const ZpNodes n = zp_nodes(m->model, m->q);
+  for (size_t i = 0; i <= last; i++) {
+    const bool inside = i > 0 && i < last;
+    const double twist = m->eval.space->joint[i].strain[ZP_SPACE_TWIST] / m->model->l;
+    const double row[COLUMNS_IN_SPACE] = {(double)i,
+                                          n.x[i],
+                                          n.y[i],
+                                          zp_sides(m->model, m->q)[i],
+                                          i < last ? zp_rolls(m->model, m->q)[i] : NAN,
+                                          i < last ? m->eval.edges.T[i] : NAN,
+                                          inside ? twist : NAN};
+    zp_table_offer(table, row);
+  }
+}
+
 static void fill_rows(const ZpStatics *s, size_t which, const ZpShape *shape, ZpTable *table) {
   const ZpRestMember *m = &s->member[which];
   const ZpTopology *t = &m->model->topology;
@@ -108,6 +140,9 @@ static void estimate(void *user, const ZpOtherMesh *other) {
     zp_add_estimate(other, "opening_m", found ? zp_statics_opening(to) - zp_statics_opening(at) : NAN);
   if (zp_tells_angle(at->model))
     zp_add_estimate(other, "angle_rad", found ? zp_statics_angle(to) - zp_statics_angle(at) : NAN);
+  if (!zp_is_in_space(at->model)) return;
+  zp_add_estimate(other, "lateral_m", found ? zp_statics_lateral(to) - zp_statics_lateral(at) : NAN);
+  zp_add_estimate(other, "skew_rad", found ? zp_statics_skew(to) - zp_statics_skew(at) : NAN);
 }
 
 static void run(ZpEquilibria *at) {
@@ -123,6 +158,10 @@ static void run(ZpEquilibria *at) {
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(t)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   if (zp_tells_angle(at->model)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_is_in_space(at->model)) {
+    zp_result_add(result, "lateral_m", "m", found ? zp_statics_lateral(s) : NAN);
+    zp_result_add(result, "skew_rad", "rad", found ? zp_statics_skew(s) : NAN);
+  }
   if (found) zp_equilibria_add_members(at);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
@@ -131,7 +170,8 @@ static void run(ZpEquilibria *at) {
   zp_add_stress(result, at->model, &at->margins);
   zp_note_mesh(result, at->model, 0);
   if (!found) return;
-  for (size_t which = 0; which < s->members; which++)
+  if (zp_is_in_space(at->model)) fill_rows_in_space(s, result->series);
+  for (size_t which = 0; !zp_is_in_space(at->model) && which < s->members; which++)
     fill_rows(s, which, &shape, result->series);
   zp_shapes_offer(result->shapes, &shape);
 }
@@ -157,7 +197,9 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   ZpStatus status = zp_equilibria_open(&at, &def, NULL, NULL, err);
   size_t members = status == ZP_OK ? at.model->members : 0;
   if (status == ZP_OK)
-    result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * at.model->nodes);
+    result->series = zp_is_in_space(at.model)
+                         ? zp_table_create(columns_in_space, COLUMNS_IN_SPACE, at.model->nodes)
+                         : zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * at.model->nodes);
   if (status == ZP_OK && !result->series) status = zp_fail_memory(err);
   if (status == ZP_OK) run(&at);
   if (status == ZP_OK && result->outcome == ZP_CONVERGED)

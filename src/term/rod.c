@@ -25,7 +25,7 @@ const ZpRow zp_row_relaxation_loss =
 enum { AXIAL, BENDING, INTERNAL, PLASTIC, PERMANENT, ELONGATED, RELAXING, RELAXED };
 
 static bool acts(const ZpModel *model) {
-  return model->is_rod;
+  return model->is_rod && !zp_is_in_space(model);
 }
 
 /* Plastic strains, fibre by fibre, then those of springs that relax. */
@@ -145,7 +145,7 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
       ZP_RULE(PHYSICS, ZP_SET(layer.relaxation_time), ZP_ABOVE(layer.relaxation_modulus, 0),                           \
               "without that modulus nothing creeps"),                                                                  \
       ZP_RULE(EQUATION, ZP_ABOVE(layer.relaxation_modulus, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),                     \
-              "the paper's springs do not creep"),                                                                     \
+              "the paper's springs and strips in space do not creep"),                                                 \
       ZP_RULE(EQUATION, ZP_ABOVE(layer.relaxation_modulus, 0), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),             \
               "the creep of a strip that curls has no closed form; use strain or stress"),                             \
       ZP_MOTION_RULE(NOT_MODELLED, ZP_ABOVE(layer.relaxation_modulus, 0),                                              \
@@ -153,7 +153,7 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
                      "the state of layers that creep is stepped with implicit steps")
 
 static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, ZP_IS(ribbon.plane, ZP_PLANE_ANTICLASTIC), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+    ZP_RULE(EQUATION, ZP_IS(ribbon.plane, ZP_PLANE_ANTICLASTIC), ZP_NOT(ribbon.model, ZP_RIBBON_MASS_SPRING),
             "the paper's springs have one bending stiffness"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_LACKS(ENDS),
             "clips, platforms and free ends do not hold the tension of two ribbons or films"),
@@ -162,7 +162,7 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.plasticity, false),
             "the fibres of a strip that yields begin without tension"),
     ZP_RULE(EQUATION, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
-            "the paper's springs have their lengths while nothing loads them"),
+            "the paper's springs and strips in space have their lengths while nothing loads them"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
             "an elastic strip does not harden"),
     ZP_RULE(PHYSICS, ZP_ABOVE(lower.ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
@@ -170,7 +170,7 @@ static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_IS(ribbon.plasticity, true), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),
             "the moment of a strip that yields while it curls has no closed form; use strain or stress"),
     ZP_RULE(EQUATION, ZP_IS(ribbon.plasticity, true), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
-            "the paper's springs are elastic; use ribbon.plasticity false"),
+            "the paper's springs and strips in space are elastic; use ribbon.plasticity false"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(ribbon.plasticity, true), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "the state of a strip that yields is stepped with implicit steps"),
     ZP_RULES_OF_A_LAYER(ribbon),

@@ -33,9 +33,10 @@ typedef struct ZpSpan {
   const double *a;           /* of such a step: accelerations, so v - h/2 a are mean velocities */
   ZpCachedField beyond;      /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
-  const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
-  double pressure, modulus;  /* of a pouch: pressure from which that at the end is counted, Pa, which an instant in
-                                motion does not have; modulus of eq. (40.6), Pa */
+  const double *tension; /* [edges] tension that a solver predicts, for the stiffness, N; in space moments behind them
+                            (zp_predicted); NULL: of the last force */
+  double pressure, modulus; /* of a pouch: pressure from which that at the end is counted, Pa, which an instant in
+                               motion does not have; modulus of eq. (40.6), Pa */
 } ZpSpan;
 
 typedef enum ZpSpanEnd { ZP_SPAN_START, ZP_SPAN_END } ZpSpanEnd;
@@ -104,6 +105,10 @@ typedef struct ZpTerm {
   /* Combinations of keys that the law refuses. May be empty. */
   ZpRules rules;
 } ZpTerm;
+
+/* In space: the moments of joints about the normal that a fraction of a change of all coordinates foresees, to first
+ * order, N m => sway [stride]. After a force. */
+void zp_space_predict(const ZpModel *model, const ZpEval *eval, double *moved, double fraction, double *sway);
 
 /* F += change of the forces by as much of ZpSpan.hung and ZpSpan.load. */
 void zp_weight_by_load(const ZpModel *model, double hung, double load, double *F);

@@ -1,6 +1,8 @@
 /* Weight of all that has a mass, along gravity; load.force and the load input, downwards, of a pouch along its film.
  * Eq. (27.4). */
 #include "base/kernel.h"
+#include "math/vector.h"
+#include "ribbon/space_angle.h"
 #include "term/term.h"
 
 const ZpRow zp_row_gravity_energy =
@@ -31,9 +33,78 @@ static double constant_of(const ZpModel *model) {
   return zp_load_share(model) * model->def.load.force;
 }
 
+/* The force of all of the load, N. */
+static void whole_load(const ZpModel *model, const ZpSpan *span, double out[3]) {
+  const double weight = span->share * zp_load_share(model) * model->def.load.mass * model->def.gravity + span->hung,
+               down = span->load + span->share * constant_of(model);
+  for (int k = 0; k < 3; k++)
+    out[k] = weight * model->fall[k] + (k < 2 ? down * model->pull[k] : 0);
+}
+
+/* Does the load turn the end that it hangs on, beside its middle? An end that is guided bears it. */
+static bool turns_end(const ZpModel *model) {
+  return zp_is_in_space(model) && model->def.load.across != 0 && zp_ends_free(&model->topology);
+}
+
+static const ZpSpaceEdge *last_edge(const ZpModel *model, const ZpEval *e) {
+  return &e->space[model->s - 1].edge[model->nodes - 1];
+}
+
+/* The load turns the last edge, eq. (41.8), whose angle is counted from the straight ribbon. */
+static void load_beside(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double first[ZP_SPACE_OF_EDGE],
+                        double second[ZP_SPACE_OF_EDGE][ZP_SPACE_OF_EDGE]) {
+  const ZpSpaceAngle angle = zp_space_angle(zp_space_along_x, last_edge(model, e));
+  double load[3];
+  whole_load(model, span, load);
+  zp_space_beside(last_edge(model, e), load, model->def.load.across, first, second);
+  zp_space_count_from(&angle, first, second);
+}
+
+/* The node at its left end. */
+static size_t left_of_last(const ZpModel *model) {
+  return model->count - 1 - model->s;
+}
+
+static void add_beside(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double *F) {
+  const size_t left = left_of_last(model), right = left + model->s;
+  double first[ZP_SPACE_OF_EDGE];
+  load_beside(model, span, e, first, NULL);
+  for (size_t c = 0; c < 3; c++) {
+    zp_axis(model, F, c)[right] += first[c];
+    zp_axis(model, F, c)[left] -= first[c];
+  }
+  zp_axis(model, F, 3)[left] += first[3];
+}
+
+/* A coordinate of an edge: x, y, z of its left node and of its right one, then its angle; the direction of its
+ * derivatives that it is, and its sign there. */
+enum { OF_ENDS = 7 };
+typedef struct EdgeWay {
+  size_t coordinate, way;
+  double sign;
+} EdgeWay;
+
+static EdgeWay way_of(const ZpModel *model, size_t k) {
+  const size_t way = k == OF_ENDS - 1 ? 3 : k % 3, node = left_of_last(model) + (k >= 3 && way < 3 ? model->s : 0);
+  return (EdgeWay){way < 2 ? zp_x_of(node) + way : zp_z_of(model->count, node) + way - 2, way, k < 3 ? -1 : 1};
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  double first[ZP_SPACE_OF_EDGE], second[ZP_SPACE_OF_EDGE][ZP_SPACE_OF_EDGE];
+  if (!turns_end(model)) return;
+  load_beside(model, span, e, first, second);
+  for (size_t k = 0; k < OF_ENDS; k++)
+    for (size_t m = 0; m <= k; m++) {
+      const EdgeWay one = way_of(model, k), other = way_of(model, m);
+      zp_assemble_pair(assembly, one.coordinate, other.coordinate, -one.sign * other.sign * second[one.way][other.way],
+                       K);
+    }
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  (void)e;
   ZpForces to = zp_forces(model, F);
+  if (zp_is_in_space(model)) add(zp_lanes(model), span->share * model->fall[2], model->weight, zp_axis(model, F, 2));
+  if (turns_end(model)) add_beside(model, span, e, F);
   if (model->fall[0] != 0) add(zp_lanes(model), span->share * model->fall[0], model->weight, to.x);
   add(zp_lanes(model), span->share * model->fall[1], model->weight, to.y);
   add_load(model, span->hung, span->load + span->share * constant_of(model), F);
@@ -70,6 +141,7 @@ static void add_connections(const ZpModel *model, double share, double (*part)(c
 
 static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
   (void)e;
+  if (zp_is_in_space(model)) return false;
   const double carried = span->share * zp_load_share(model);
   ZpForces to = zp_forces(model, F);
   if (key == ZP_KEY(gravity)) {
@@ -88,13 +160,22 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
   return true;
 }
 
+/* Work of the load on its way beside the middle of the end, J. */
+static double work_beside(const ZpModel *model, const ZpSpan *now, const ZpEval *e) {
+  double load[3];
+  whole_load(model, now, load);
+  return model->def.load.across * zp_space_dot(load, last_edge(model, e)->width);
+}
+
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
-  (void)e;
   const double *x = zp_nodes(model, now->end).x, *y = zp_nodes(model, now->end).y;
   for (size_t j = 0; j < model->count; j++) {
     double along = x[j] - zp_straight_x(model, j / model->s);
     row[0] -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
+  for (size_t j = 0; zp_is_in_space(model) && j < model->count; j++)
+    row[0] -= model->weight[j] * model->fall[2] * zp_sides(model, now->end)[j];
+  if (turns_end(model)) row[0] -= work_beside(model, now, e);
   row[0] -= constant_of(model) * zp_load_down(model, zp_nodes(model, now->end));
   row[0] -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
                          model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
@@ -114,6 +195,7 @@ static const ZpRule rule[] = {
 const ZpTerm zp_term_weight = {.name = "weight",
                                .row = {&zp_row_gravity_energy, &zp_row_catch_loss},
                                .force = force,
+                               .stiffness = stiffness,
                                .now = energy,
                                .by_key = by_key,
                                .rules = ZP_RULES_OF(rule)};

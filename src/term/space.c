@@ -1,0 +1,143 @@
+/* Ribbons in space: stretching, bending about both axes of the section, twist and warping; docs/theory.md, section 41.
+ * Of equilibria. */
+#include <string.h>
+
+#include "math/vector.h"
+#include "term/term.h"
+
+enum { AXIAL, BENDING };
+
+static bool acts(const ZpModel *model) {
+  return zp_is_in_space(model);
+}
+
+/* An edge of the straight ribbon, its normal upwards and its width towards the viewer. */
+static ZpSpaceEdge straight(double length) {
+  return (ZpSpaceEdge){.length = length, .t = {1, 0, 0}, .normal = {0, 1, 0}, .width = {0, 0, 1}};
+}
+
+/* Positions and angles of ribbon r => its edges. */
+static void place(const ZpModel *model, const double *q, size_t r, ZpSpaceRod *rod) {
+  const ZpNodes n = zp_nodes(model, q);
+  const double *z = zp_sides(model, q), *roll = zp_rolls(model, q);
+  const ZpSpaceEdge start = straight(model->l);
+  rod->edge[0] = rod->edge[model->nodes] = start;
+  for (size_t i = 0; i < model->nodes; i++) {
+    const size_t j = i * model->s + r;
+    const double at[3] = {n.x[j], n.y[j], z[j]};
+    memcpy(rod->at[i], at, sizeof at);
+  }
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    double vector[3] = {rod->at[i + 1][0], rod->at[i + 1][1], rod->at[i + 1][2]};
+    zp_space_add(-1, rod->at[i], vector);
+    rod->edge[i + 1] = zp_space_move(&start, vector, roll[i * model->s + r]);
+  }
+}
+
+/* The edges as other laws and solvers see them. */
+static void tell_edges(const ZpModel *model, size_t r, const ZpSpaceRod *rod, ZpEval *e) {
+  const ZpSpaceRodParams *p = &model->space[r];
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    const size_t j = i * model->s + r;
+    const ZpSpaceEdge *edge = &rod->edge[i + 1];
+    e->rod.dpx[j] = edge->length * edge->t[0];
+    e->rod.dpy[j] = edge->length * edge->t[1];
+    e->dpz[j] = edge->length * edge->t[2];
+    e->rod.ux[j] = edge->t[0];
+    e->rod.uy[j] = edge->t[1];
+    e->uz[j] = edge->t[2];
+    e->rod.T[j] = p->S * (edge->length - p->l);
+  }
+}
+
+static void tell_sway(const ZpModel *model, size_t r, const ZpSpaceRod *rod, ZpEval *e) {
+  for (size_t i = 0; i < model->nodes; i++)
+    e->sway[i * model->s + r] = rod->joint[i].moment[ZP_SPACE_SWAY];
+}
+
+void zp_space_predict(const ZpModel *model, const ZpEval *e, double *moved, double fraction, double *sway) {
+  double *step = e->space_gradient, *change = e->space_K;
+  for (size_t r = 0; r < model->s; r++) {
+    for (size_t i = 0; i < model->nodes; i++)
+      for (size_t c = 0; c < ZP_SPACE_OF_NODE; c++)
+        step[ZP_SPACE_OF_NODE * i + c] = zp_axis(model, moved, c)[i * model->s + r];
+    zp_space_sway_changes(&model->space[r], &e->space[r], step, change);
+    for (size_t i = 0; i < model->nodes; i++)
+      sway[i * model->s + r] = e->sway[i * model->s + r] + fraction * change[i];
+  }
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  for (size_t r = 0; r < model->s; r++) {
+    ZpSpaceRod *rod = &e->space[r];
+    place(model, span->end, r, rod);
+    zp_space_energy(&model->space[r], rod, e->space_gradient);
+    tell_edges(model, r, rod, e);
+    tell_sway(model, r, rod, e);
+    for (size_t i = 0; i < model->nodes; i++)
+      for (size_t c = 0; c < ZP_SPACE_OF_NODE; c++)
+        zp_axis(model, F, c)[i * model->s + r] -= e->space_gradient[ZP_SPACE_OF_NODE * i + c];
+  }
+}
+
+/* Unknown k of the rod of ribbon r => coordinate. */
+static size_t coordinate_of(const ZpModel *model, size_t r, size_t k) {
+  const size_t j = k / ZP_SPACE_OF_NODE * model->s + r, c = k % ZP_SPACE_OF_NODE;
+  return c < 2 ? zp_x_of(j) + c : zp_z_of(model->count, j) + c - 2;
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  enum { WIDE = ZP_SPACE_BAND + 1 };
+  const size_t unknowns = ZP_SPACE_OF_NODE * model->nodes;
+  for (size_t r = 0; r < model->s; r++) {
+    ZpSpaceRod *rod = &e->space[r];
+    for (size_t i = 0; i + 1 < model->nodes; i++)
+      rod->tension[i] = span->tension ? span->tension[i * model->s + r] : e->rod.T[i * model->s + r];
+    for (size_t i = 0; i < model->nodes; i++)
+      rod->sway[i] = span->tension ? span->tension[zp_lanes(model) + i * model->s + r] : e->sway[i * model->s + r];
+    memset(e->space_K, 0, WIDE * unknowns * sizeof *e->space_K);
+    zp_space_stiffness(&model->space[r], rod, e->space_K);
+    for (size_t i = 0; i < unknowns; i++)
+      for (size_t k = 0; k < WIDE && i + k < unknowns; k++)
+        zp_assemble_pair(assembly, coordinate_of(model, r, i), coordinate_of(model, r, i + k), e->space_K[WIDE * i + k],
+                         K);
+  }
+}
+
+static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
+  for (size_t r = 0; r < model->s; r++) {
+    ZpSpaceRod *rod = &e->space[r];
+    double axial = 0;
+    place(model, now->end, r, rod);
+    tell_edges(model, r, rod, e);
+    for (size_t i = 0; i + 1 < model->nodes; i++) {
+      const double T = e->rod.T[i * model->s + r];
+      axial += 0.5 * T * T / model->space[r].S;
+    }
+    row[AXIAL] += axial;
+    row[BENDING] += zp_space_energy(&model->space[r], rod, NULL) - axial;
+  }
+}
+
+static const ZpRule rule[] = {
+    ZP_RULE(NOT_MODELLED, ZP_IS(ribbon.model, ZP_RIBBON_SPATIAL), ZP_LACKS(ELECTRODES),
+            "attraction, contact and clips are those of ribbons in a plane; use actuator.kind ribbon"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(ribbon.model, ZP_RIBBON_SPATIAL), ZP_AT_MOST(insulator.young_modulus, 0),
+            "a strip in space is of one layer"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(ribbon.model, ZP_RIBBON_SPATIAL), ZP_UNSET(sensitivity.by),
+            "derivatives of equilibria in space are not available"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_ANY, ZP_NOT(ribbon.model, ZP_RIBBON_SPATIAL),
+                   "ribbons in space are at rest; use study stationary"),
+    ZP_RULE(PHYSICS, ZP_SET(load.across), ZP_IS(ribbon.model, ZP_RIBBON_SPATIAL),
+            "a load beside the middle twists the strip"),
+    ZP_RULE(PHYSICS, ZP_SET(mount.roll), ZP_IS(ribbon.model, ZP_RIBBON_SPATIAL),
+            "gravity draws the strip out of its plane"),
+};
+
+const ZpTerm zp_term_space = {.name = "space",
+                              .row = {[AXIAL] = &zp_row_axial_energy, [BENDING] = &zp_row_bending_energy},
+                              .acts = acts,
+                              .force = force,
+                              .stiffness = stiffness,
+                              .now = hold,
+                              .rules = ZP_RULES_OF(rule)};
