@@ -752,6 +752,16 @@ void zp_assemble_pair(const ZpAssembly *a, size_t one, size_t other, double valu
   if (one != other) add(a, other, one, value, K);
 }
 
+void zp_assemble_chain(const ZpAssembly *a, size_t n, const size_t *coordinate, size_t wide, const double *value,
+                       ZpBand *K) {
+  for (size_t i = 0; i < n; i++) {
+    if (a->place[coordinate[i]] == -1) continue;
+    add(a, coordinate[i], coordinate[i], value[wide * i], K);
+    for (size_t k = 1; k < wide && i + k < n; k++)
+      if (value[wide * i + k] != 0) add_both(a, coordinate[i], coordinate[i + k], value[wide * i + k], K);
+  }
+}
+
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
   const size_t up = 2 * a->s * station + 1, low = up + 2 * (a->s - 1);
   const int row = a->place[up], column = a->place[low];

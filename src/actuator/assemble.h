@@ -105,6 +105,11 @@ void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, do
 /* K += a second derivative by two coordinates, in both of its places; where they are the same one, in one. */
 void zp_assemble_pair(const ZpAssembly *assembly, size_t one, size_t other, double value, ZpBand *K);
 
+/* K += second derivatives by n coordinates, of which each meets those up to `wide` - 1 behind it in the list: that by
+ * the i-th and the (i + k)-th at value[wide i + k]. */
+void zp_assemble_chain(const ZpAssembly *assembly, size_t n, const size_t *coordinate, size_t wide, const double *value,
+                       ZpBand *K);
+
 /* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
 void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,
                          ZpBand *K);

@@ -42,12 +42,13 @@ typedef struct ZpEval {
   ZpRodParams bent; /* the rod with the natural curvature that acts, */
   double *k0;       /* [stride] which may be this */
   ZpNatural natural;
-  ZpSpaceRod space[2];    /* of each ribbon, in space, */
-  double *space_gradient; /* [4 nodes], N, N m, */
-  double *space_K;        /* [4 nodes][band] its stiffness */
-  double *sway;           /* [stride] moments of joints about the normal, N m */
-  double *dpz, *uz;       /* [stride] of edges, as ZpEdges */
-  ZpEdges edges;          /* at the end, of the mechanics in use */
+  ZpSpaceRod space[2];      /* of each ribbon, in space, */
+  double *space_gradient;   /* [4 nodes], N, N m, */
+  double *space_K;          /* [4 nodes][band] its stiffness */
+  size_t *space_coordinate; /* [4 nodes] of its unknowns */
+  double *sway;             /* [stride] moments of joints about the normal, N m */
+  double *dpz, *uz;         /* [stride] of edges, as ZpEdges */
+  ZpEdges edges;            /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;

@@ -224,10 +224,10 @@ static void add_product(const ZpSpaceRodParams *p, size_t ja, const double a[ZP_
   by_unknowns(a, left);
   by_unknowns(b, right);
   for (long i = 0; i < WIDE; i++)
-    for (long j = 0; j < WIDE; j++) {
+    for (long j = 0; left[i] != 0 && j < WIDE; j++) {
+      const long one = fa + i, other = fb + j;
       const double both = factor * left[i] * right[j];
-      add_entry(p, fa + i, fb + j, both, K);
-      add_entry(p, fb + j, fa + i, both, K);
+      add_entry(p, one < other ? one : other, one < other ? other : one, one == other ? 2 * both : both, K);
     }
 }
 

@@ -98,9 +98,8 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
     memset(e->space_K, 0, WIDE * unknowns * sizeof *e->space_K);
     zp_space_stiffness(&model->space[r], rod, e->space_K);
     for (size_t i = 0; i < unknowns; i++)
-      for (size_t k = 0; k < WIDE && i + k < unknowns; k++)
-        zp_assemble_pair(assembly, coordinate_of(model, r, i), coordinate_of(model, r, i + k), e->space_K[WIDE * i + k],
-                         K);
+      e->space_coordinate[i] = coordinate_of(model, r, i);
+    zp_assemble_chain(assembly, unknowns, e->space_coordinate, WIDE, e->space_K, K);
   }
 }
 
