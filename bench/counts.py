@@ -23,9 +23,12 @@ CACHES = ["--I1=32768,8,64", "--D1=32768,8,64", "--LL=33554432,16,64"]
 DRY, BEAD, BATH = (["liquid.model=" + word] for word in ("none", "bead", "submerged"))
 ZIP = ["solver.stop_when_zipped=true", "output.errors=false"]
 STRIP = ["actuator.kind=ribbon", "ribbon.length=45 mm", "ribbon.thickness=100 um", "ribbon.plane=stress", "output.errors=false"]
+FREE = ["actuator.kind=ribbon", "actuator.right_end=free", "ribbon.length=60 mm", "load.mass=0.5 g", "output.errors=false"]
 # name, study, what is set; ribbons
 ROWS = [
     ("rest of a guided strip", "stationary", [*STRIP, "load.mass=61 g", "mesh.nodes=14"], 1),
+    ("rest of a strip", "stationary", [*FREE, "ribbon.model=rod"], 1),
+    ("rest of a strip in space, load beside the middle", "stationary", [*FREE, "ribbon.model=spatial", "load.across=1 mm"], 1),
     ("rest of the default actuator", "stationary", [*DRY, "output.errors=false"], 2),
     ("limits, dry", "limits", [*DRY, "output.errors=false"], 2),
     ("limits, dry, with errors", "limits", DRY, 2),
