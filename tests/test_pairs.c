@@ -527,9 +527,7 @@ static double stiffness_error(ZpStatics *s, const double *saved, const double *s
   }
   move_from(s, saved, step, 0);
   system.residual(s, product, NULL);
-  for (size_t k = 0; k < s->members; k++)
-    memcpy(s->member[k].tension, s->member[k].eval.edges.T,
-           (s->member[k].model->count - s->member[k].model->s) * sizeof *s->member[k].tension);
+  zp_statics_take_tensions(s);
   system.stiffness(s, K, NULL);
   zp_arrow_multiply(K, step, product);
   for (size_t i = 0; i < s->n; i++) {

@@ -747,11 +747,6 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
   add(a, row, column, value, K);
 }
 
-void zp_assemble_pair(const ZpAssembly *a, size_t one, size_t other, double value, ZpBand *K) {
-  add(a, one, other, value, K);
-  if (one != other) add(a, other, one, value, K);
-}
-
 void zp_assemble_chain(const ZpAssembly *a, size_t n, const size_t *coordinate, size_t wide, const double *value,
                        ZpBand *K) {
   for (size_t i = 0; i < n; i++) {

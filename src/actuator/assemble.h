@@ -102,9 +102,6 @@ void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);
 
-/* K += a second derivative by two coordinates, in both of its places; where they are the same one, in one. */
-void zp_assemble_pair(const ZpAssembly *assembly, size_t one, size_t other, double value, ZpBand *K);
-
 /* K += second derivatives by n coordinates, of which each meets those up to `wide` - 1 behind it in the list: that by
  * the i-th and the (i + k)-th at value[wide i + k]. */
 void zp_assemble_chain(const ZpAssembly *assembly, size_t n, const size_t *coordinate, size_t wide, const double *value,

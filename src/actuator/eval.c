@@ -31,9 +31,6 @@ static void reserve_space(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   e->space_gradient = zp_arena_take(arena, ZP_SPACE_OF_NODE * model->nodes);
   e->space_K = zp_arena_take(arena, ZP_SPACE_OF_NODE * model->nodes * (ZP_SPACE_BAND + 1));
   e->space_coordinate = zp_arena_take_of(arena, ZP_SPACE_OF_NODE * model->nodes, sizeof *e->space_coordinate);
-  e->sway = zp_arena_take(arena, model->stride);
-  e->dpz = zp_arena_take(arena, model->stride);
-  e->uz = zp_arena_take(arena, model->stride);
 }
 
 static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {

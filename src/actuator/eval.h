@@ -46,8 +46,6 @@ typedef struct ZpEval {
   double *space_gradient;   /* [4 nodes], N, N m, */
   double *space_K;          /* [4 nodes][band] its stiffness */
   size_t *space_coordinate; /* [4 nodes] of its unknowns */
-  double *sway;             /* [stride] moments of joints about the normal, N m */
-  double *dpz, *uz;         /* [stride] of edges, as ZpEdges */
   ZpEdges edges;            /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;

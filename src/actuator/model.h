@@ -233,6 +233,11 @@ static inline bool zp_is_in_space(const ZpModel *model) {
   return model->axes == ZP_SPACE_AXES;
 }
 
+/* Directions in which its nodes move: x, y, in space also z. */
+static inline size_t zp_directions(const ZpModel *model) {
+  return zp_is_in_space(model) ? 3 : 2;
+}
+
 /* Where the coordinates and velocities of a state stand. */
 static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
   (void)model;
@@ -466,7 +471,7 @@ static inline double zp_straight_x(const ZpModel *model, size_t station) {
 static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   const ZpJoint *platform = &model->topology.platform;
   if (zp_half_elements(&model->topology) == 0) return;
-  for (size_t k = 0; k < (zp_is_in_space(model) ? 3 : 2) * model->stride; k++)
+  for (size_t k = 0; k < zp_directions(model) * model->stride; k++)
     q[k] *= stretch;
   if (platform->first == platform->last) return;
   size_t right = zp_upper(&model->topology, platform->last);
@@ -588,13 +593,9 @@ static inline double *zp_axis(const ZpModel *model, double *q, size_t axis) {
   return q + axis * model->stride;
 }
 
-/* In space: the other two coordinates of all nodes. */
-static inline const double *zp_sides(const ZpModel *model, const double *q) {
-  return q + 2 * model->stride;
-}
-
-static inline const double *zp_rolls(const ZpModel *model, const double *q) {
-  return q + 3 * model->stride;
+/* For reading. */
+static inline const double *zp_read_axis(const ZpModel *model, const double *q, size_t axis) {
+  return q + axis * model->stride;
 }
 
 static inline ZpForces zp_forces(const ZpModel *model, double *F) {

@@ -81,28 +81,22 @@ static void spread(const ZpTopology *t, Path path, double missed, double *q) {
   }
 }
 
-/* Coordinate x, y or z of a node. */
-static size_t way_of(const ZpModel *model, size_t node, size_t c) {
-  return c < 2 ? zp_x_of(node) + c : zp_z_of(model->count, node);
-}
-
 void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const double *edges, double *nodes) {
   const ZpTopology *t = &model->topology;
   const int *equation = assembly->equation;
   size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
   Path path[MOST_PATHS];
   size_t paths = paths_of(t, equation, path);
-  const size_t ways = zp_is_in_space(model) ? 3 : 2;
-  for (size_t c = 0; c < ways; c++) {
-    const double *d = edges + c * model->stride;
-    double *q = nodes + c * model->stride;
+  for (size_t c = 0; c < zp_directions(model); c++) {
+    const double *d = zp_read_axis(model, edges, c);
+    double *q = zp_axis(model, nodes, c);
     for (size_t k = 0; k < paths; k++) {
       size_t end = path[k].returns ? path[k].start + 1 : path[k].turn;
       double last = q[end];
       walk(t, path[k], d, q);
-      if (equation[way_of(model, end, c)] < 0) spread(t, path[k], q[end] - last, q);
+      if (equation[zp_coordinate_of(model->count, end, c)] < 0) spread(t, path[k], q[end] - last, q);
     }
-    if (zp_halves(t) == 1 || equation[way_of(model, left, c)] < 0) continue;
+    if (zp_halves(t) == 1 || equation[zp_coordinate_of(model->count, left, c)] < 0) continue;
     double missed = q[right] - q[left] - d[left];
     spread(t, path_to_platform(t, equation, false), -0.5 * missed, q);
     spread(t, path_to_platform(t, equation, true), 0.5 * missed, q);

@@ -37,12 +37,12 @@ static void add_in_space(ZpTies *ties) {
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++) {
     const ZpJointWay *way = &zp_joint_way[joint->kind];
     for (size_t j = model->s * joint->first; j < model->s * (joint->last + 1); j++) {
-      const size_t z = zp_z_of(model->count, j);
+      const size_t z = zp_coordinate_of(model->count, j, ZP_AXIS_Z);
       if (way->held[j % model->s][0] && way->held[j % model->s][1]) add(ties, (ZpTie){member, z, member, z, 0, 0, 0});
     }
   }
   for (size_t j = model->count - model->s; j < model->count; j++) {
-    const size_t roll = zp_roll_of(model->count, j);
+    const size_t roll = zp_coordinate_of(model->count, j, ZP_AXIS_ROLL);
     add(ties, (ZpTie){member, roll, member, roll, 0, 0, 0});
   }
 }

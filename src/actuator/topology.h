@@ -94,13 +94,12 @@ static inline size_t zp_y_of(size_t node) {
 
 enum { ZP_PLANE_AXES = 2, ZP_SPACE_AXES = 4 };
 
-/* In space. */
-static inline size_t zp_z_of(size_t nodes, size_t node) {
-  return 2 * nodes + 2 * node;
-}
+/* Axes of a node, in the order in which arrays hold them. */
+enum { ZP_AXIS_Z = 2, ZP_AXIS_ROLL = 3 };
 
-static inline size_t zp_roll_of(size_t nodes, size_t node) {
-  return 2 * nodes + 2 * node + 1;
+/* Coordinate of a node along an axis: x (0), y (1), in space z and the angle of the edge to the right. */
+static inline size_t zp_coordinate_of(size_t nodes, size_t node, size_t axis) {
+  return 2 * node + axis % 2 + (axis < 2 ? 0 : 2 * nodes);
 }
 
 /* Where coordinate k stands in arrays that hold all x, then all y, all z and all angles, `stride` apart. */

@@ -12,7 +12,7 @@ static inline double zp_dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* In space: a . b; out += factor v; out += factor a x b; out = a x b. */
+/* In space: a . b; out += factor v; out += factor a x b; out = a x b; M += factor (a b' + b a') / 2. */
 static inline double zp_space_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -31,6 +31,12 @@ static inline void zp_space_add_cross(double factor, const double a[3], const do
 static inline void zp_space_cross(const double a[3], const double b[3], double out[3]) {
   out[0] = out[1] = out[2] = 0;
   zp_space_add_cross(1, a, b, out);
+}
+
+static inline void zp_space_add_symmetric(double factor, const double a[3], const double b[3], double M[3][3]) {
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      M[i][j] += 0.5 * factor * (a[i] * b[j] + b[i] * a[j]);
 }
 
 #endif

@@ -72,8 +72,8 @@ static void refine_nodes(const ZpRestMember *m, ZpRestMember *other, Half from, 
         zp_coordinate(other->model, other->q, c)[s * (to.first + i) + ribbon] =
             value_at(place, zp_coordinate(m->model, m->q, c) + ribbon, s);
     for (size_t ribbon = 0; zp_is_in_space(m->model) && ribbon < s; ribbon++)
-      zp_axis(other->model, other->q, 2)[s * (to.first + i) + ribbon] =
-          value_at(place, zp_sides(m->model, m->q) + ribbon, s);
+      zp_axis(other->model, other->q, ZP_AXIS_Z)[s * (to.first + i) + ribbon] =
+          value_at(place, zp_read_axis(m->model, m->q, ZP_AXIS_Z) + ribbon, s);
   }
 }
 
@@ -87,8 +87,8 @@ static void refine_tensions(const ZpRestMember *m, ZpRestMember *other, Half fro
     for (size_t ribbon = 0; ribbon < s; ribbon++)
       other->tension[s * (to.first + i) + ribbon] = value_at(place, m->tension + ribbon, s);
     for (size_t ribbon = 0; zp_is_in_space(m->model) && ribbon < s; ribbon++)
-      zp_axis(other->model, other->q, 3)[s * (to.first + i) + ribbon] =
-          value_at(place, zp_rolls(m->model, m->q) + ribbon, s);
+      zp_axis(other->model, other->q, ZP_AXIS_ROLL)[s * (to.first + i) + ribbon] =
+          value_at(place, zp_read_axis(m->model, m->q, ZP_AXIS_ROLL) + ribbon, s);
   }
 }
 

@@ -190,8 +190,7 @@ void zp_statics_take_tensions(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
     memcpy(m->tension, m->eval.edges.T, edge_count(m) * sizeof *m->tension);
     m->tension[zp_pressure_place(m->model)] = m->eval.pressure;
-    if (zp_is_in_space(m->model))
-      memcpy(&m->tension[zp_lanes(m->model)], m->eval.sway, zp_lanes(m->model) * sizeof *m->tension);
+    if (zp_is_in_space(m->model)) zp_space_take_sway(m->model, &m->eval, &m->tension[zp_lanes(m->model)]);
   }
   zp_links_take(&s->links);
 }
@@ -569,7 +568,7 @@ double zp_statics_opening(const ZpStatics *s) {
 
 double zp_statics_lateral(const ZpStatics *s) {
   const ZpRestMember *m = s->member;
-  return zp_sides(m->model, m->q)[zp_load_node(&m->model->topology)];
+  return zp_read_axis(m->model, m->q, ZP_AXIS_Z)[zp_load_node(&m->model->topology)];
 }
 
 double zp_statics_skew(const ZpStatics *s) {
@@ -1007,21 +1006,24 @@ ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const doubl
   }
 }
 
+/* In space: an edge, and how m->moved changes its vector. */
+static const ZpSpaceEdge *edge_in_space(const ZpRestMember *m, size_t j, double change[3]) {
+  for (size_t c = 0; c < 3; c++) {
+    const double *moved = zp_read_axis(m->model, m->moved, c);
+    change[c] = moved[j + m->model->s] - moved[j];
+  }
+  return &m->eval.space[j % m->model->s].edge[j / m->model->s + 1];
+}
+
 /* Rotation, without a sign and at least that of the angle of the edge, and stretch of all edges in space. */
 static void edges_in_space_under_step(ZpRestMember *m) {
-  const ZpModel *model = m->model;
-  const ZpEval *e = &m->eval;
-  const size_t s = model->s;
-  const ZpNodes moved = zp_nodes(model, m->moved);
-  const double *z = zp_sides(model, m->moved), *roll = zp_rolls(model, m->moved);
+  const double *roll = zp_read_axis(m->model, m->moved, ZP_AXIS_ROLL);
   for (size_t j = 0; j < edge_count(m); j++) {
-    const double u[3] = {e->edges.ux[j], e->edges.uy[j], e->uz[j]},
-                 edge[3] = {e->edges.dpx[j], e->edges.dpy[j], e->dpz[j]};
-    double by[3] = {moved.x[j + s] - moved.x[j], moved.y[j + s] - moved.y[j], z[j + s] - z[j]};
-    m->stretch[j] = zp_space_dot(u, by);
-    zp_space_add(-m->stretch[j], u, by);
-    m->rotation[j] = sqrt(zp_space_dot(by, by)) / zp_space_dot(u, edge);
-    m->rotation[j] = fmax(m->rotation[j], fabs(roll[j]));
+    double change[3];
+    const ZpSpaceEdge *edge = edge_in_space(m, j, change);
+    m->stretch[j] = zp_space_dot(edge->t, change);
+    zp_space_add(-m->stretch[j], edge->t, change);
+    m->rotation[j] = fmax(sqrt(zp_space_dot(change, change)) / edge->length, fabs(roll[j]));
   }
 }
 
@@ -1123,23 +1125,19 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
 /* In space m->moved has the changes of nodes, and becomes edge vectors; angles of edges move, too. */
 static void edges_in_space_turned(ZpRestMember *m, double fraction) {
   const ZpModel *model = m->model;
-  const ZpEval *e = &m->eval;
-  const size_t s = model->s;
-  double *to[3] = {zp_axis(model, m->moved, 0), zp_axis(model, m->moved, 1), zp_axis(model, m->moved, 2)};
-  zp_space_predict(model, e, m->moved, fraction, &m->tension[zp_lanes(model)]);
+  double *roll = zp_axis(model, m->q, ZP_AXIS_ROLL);
+  zp_space_predict(model, &m->eval, m->moved, fraction, &m->tension[zp_lanes(model)]);
   for (size_t j = 0; j < edge_count(m); j++) {
-    const double u[3] = {e->edges.ux[j], e->edges.uy[j], e->uz[j]},
-                 edge[3] = {e->edges.dpx[j], e->edges.dpy[j], e->dpz[j]};
-    const double length = zp_space_dot(u, edge);
-    double t[3] = {to[0][j + s] - to[0][j], to[1][j + s] - to[1][j], to[2][j + s] - to[2][j]};
-    zp_space_add(-m->stretch[j], u, t);
-    for (int c = 0; c < 3; c++)
-      t[c] = u[c] + fraction / length * t[c];
-    const double l = (length + fraction * m->stretch[j]) / sqrt(zp_space_dot(t, t));
-    m->tension[j] = e->edges.T[j] + fraction * model->rod.S[j] * m->stretch[j];
-    for (int c = 0; c < 3; c++)
-      to[c][j] = l * t[c];
-    zp_axis(model, m->q, 3)[j] += fraction * zp_axis(model, m->moved, 3)[j];
+    double change[3];
+    const ZpSpaceEdge *edge = edge_in_space(m, j, change);
+    double t[3] = {edge->t[0], edge->t[1], edge->t[2]};
+    zp_space_add(-m->stretch[j], edge->t, change);
+    zp_space_add(fraction / edge->length, change, t);
+    const double l = (edge->length + fraction * m->stretch[j]) / sqrt(zp_space_dot(t, t));
+    m->tension[j] = m->eval.edges.T[j] + fraction * model->rod.S[j] * m->stretch[j];
+    for (size_t c = 0; c < 3; c++)
+      zp_axis(model, m->moved, c)[j] = l * t[c];
+    roll[j] += fraction * zp_read_axis(model, m->moved, ZP_AXIS_ROLL)[j];
   }
 }
 

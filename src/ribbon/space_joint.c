@@ -144,13 +144,7 @@ typedef struct Second {
   double by_angle[2][2][3], angle[2]; /* by the angle of an edge and a tangent; by an angle twice */
 } Second;
 
-/* M += factor (a b' + b a') / 2; M += factor a b'; M v += factor a x v */
-static void add_symmetric(double factor, const double a[3], const double b[3], double M[3][3]) {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++)
-      M[i][j] += 0.5 * factor * (a[i] * b[j] + b[i] * a[j]);
-}
-
+/* M += factor a b'; M v += factor a x v */
 static void add_outer(double factor, const double a[3], const double b[3], double M[3][3]) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -177,8 +171,8 @@ static void second_of_bending(const Turn *turn, ZpSpaceStrain strain, Second *se
   for (int e = 0; e < 2; e++) {
     const double *other = t[1 - e], turned = 0.5 * axis.sense * zp_space_dot(axis.turned[e], turn->b);
     add_outer(turn->g2 * ab, other, other, second->M[e]);
-    add_symmetric(2 * turn->g1, other, across[e], second->M[e]);
-    add_symmetric(0.5 * turn->product.g, axis.of[e], turn->b, second->M[e]);
+    zp_space_add_symmetric(2 * turn->g1, other, across[e], second->M[e]);
+    zp_space_add_symmetric(0.5 * turn->product.g, axis.of[e], turn->b, second->M[e]);
     for (int by = 0; by < 2; by++) {
       double part[3];
       zp_space_cross(by == 0 ? t[1] : axis.turned[e], by == 0 ? axis.turned[e] : t[0], part);
@@ -200,7 +194,7 @@ static void second_of_twist(const Turn *turn, Second *second) {
   *second = (Second){0};
   for (int e = 0; e < 2; e++) {
     zp_space_add(turn->over, turn->b, second->A[e]);
-    add_symmetric(-over2, turn->b, t[1 - e], second->M[e]);
+    zp_space_add_symmetric(-over2, turn->b, t[1 - e], second->M[e]);
     add_skew(0.5 * turn->over, t[e], second->mixed);
   }
   add_outer(-0.5 * over2, turn->b, t[0], second->mixed);

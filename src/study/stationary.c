@@ -44,8 +44,8 @@ static void fill_rows_in_space(const ZpStatics *s, ZpTable *table) {
     const double row[COLUMNS_IN_SPACE] = {(double)i,
                                           n.x[i],
                                           n.y[i],
-                                          zp_sides(m->model, m->q)[i],
-                                          i < last ? zp_rolls(m->model, m->q)[i] : NAN,
+                                          zp_read_axis(m->model, m->q, ZP_AXIS_Z)[i],
+                                          i < last ? zp_read_axis(m->model, m->q, ZP_AXIS_ROLL)[i] : NAN,
                                           i < last ? m->eval.edges.T[i] : NAN,
                                           inside ? twist : NAN};
     zp_table_offer(table, row);

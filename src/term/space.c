@@ -19,7 +19,7 @@ static ZpSpaceEdge straight(double length) {
 /* Positions and angles of ribbon r => its edges. */
 static void place(const ZpModel *model, const double *q, size_t r, ZpSpaceRod *rod) {
   const ZpNodes n = zp_nodes(model, q);
-  const double *z = zp_sides(model, q), *roll = zp_rolls(model, q);
+  const double *z = zp_read_axis(model, q, ZP_AXIS_Z), *roll = zp_read_axis(model, q, ZP_AXIS_ROLL);
   const ZpSpaceEdge start = straight(model->l);
   rod->edge[0] = rod->edge[model->nodes] = start;
   for (size_t i = 0; i < model->nodes; i++) {
@@ -34,36 +34,27 @@ static void place(const ZpModel *model, const double *q, size_t r, ZpSpaceRod *r
   }
 }
 
-/* The edges as other laws and solvers see them. */
-static void tell_edges(const ZpModel *model, size_t r, const ZpSpaceRod *rod, ZpEval *e) {
+static void tell_tensions(const ZpModel *model, size_t r, const ZpSpaceRod *rod, ZpEval *e) {
   const ZpSpaceRodParams *p = &model->space[r];
-  for (size_t i = 0; i + 1 < model->nodes; i++) {
-    const size_t j = i * model->s + r;
-    const ZpSpaceEdge *edge = &rod->edge[i + 1];
-    e->rod.dpx[j] = edge->length * edge->t[0];
-    e->rod.dpy[j] = edge->length * edge->t[1];
-    e->dpz[j] = edge->length * edge->t[2];
-    e->rod.ux[j] = edge->t[0];
-    e->rod.uy[j] = edge->t[1];
-    e->uz[j] = edge->t[2];
-    e->rod.T[j] = p->S * (edge->length - p->l);
-  }
+  for (size_t i = 0; i + 1 < model->nodes; i++)
+    e->rod.T[i * model->s + r] = p->S * (rod->edge[i + 1].length - p->l);
 }
 
-static void tell_sway(const ZpModel *model, size_t r, const ZpSpaceRod *rod, ZpEval *e) {
-  for (size_t i = 0; i < model->nodes; i++)
-    e->sway[i * model->s + r] = rod->joint[i].moment[ZP_SPACE_SWAY];
+void zp_space_take_sway(const ZpModel *model, const ZpEval *e, double *sway) {
+  for (size_t j = 0; j < model->count; j++)
+    sway[j] = e->space[j % model->s].joint[j / model->s].moment[ZP_SPACE_SWAY];
 }
 
-void zp_space_predict(const ZpModel *model, const ZpEval *e, double *moved, double fraction, double *sway) {
+void zp_space_predict(const ZpModel *model, const ZpEval *e, const double *moved, double fraction, double *sway) {
   double *step = e->space_gradient, *change = e->space_K;
+  zp_space_take_sway(model, e, sway);
   for (size_t r = 0; r < model->s; r++) {
     for (size_t i = 0; i < model->nodes; i++)
       for (size_t c = 0; c < ZP_SPACE_OF_NODE; c++)
-        step[ZP_SPACE_OF_NODE * i + c] = zp_axis(model, moved, c)[i * model->s + r];
+        step[ZP_SPACE_OF_NODE * i + c] = zp_read_axis(model, moved, c)[i * model->s + r];
     zp_space_sway_changes(&model->space[r], &e->space[r], step, change);
     for (size_t i = 0; i < model->nodes; i++)
-      sway[i * model->s + r] = e->sway[i * model->s + r] + fraction * change[i];
+      sway[i * model->s + r] += fraction * change[i];
   }
 }
 
@@ -72,18 +63,11 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
     ZpSpaceRod *rod = &e->space[r];
     place(model, span->end, r, rod);
     zp_space_energy(&model->space[r], rod, e->space_gradient);
-    tell_edges(model, r, rod, e);
-    tell_sway(model, r, rod, e);
+    tell_tensions(model, r, rod, e);
     for (size_t i = 0; i < model->nodes; i++)
       for (size_t c = 0; c < ZP_SPACE_OF_NODE; c++)
         zp_axis(model, F, c)[i * model->s + r] -= e->space_gradient[ZP_SPACE_OF_NODE * i + c];
   }
-}
-
-/* Unknown k of the rod of ribbon r => coordinate. */
-static size_t coordinate_of(const ZpModel *model, size_t r, size_t k) {
-  const size_t j = k / ZP_SPACE_OF_NODE * model->s + r, c = k % ZP_SPACE_OF_NODE;
-  return c < 2 ? zp_x_of(j) + c : zp_z_of(model->count, j) + c - 2;
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
@@ -94,11 +78,13 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
     for (size_t i = 0; i + 1 < model->nodes; i++)
       rod->tension[i] = span->tension ? span->tension[i * model->s + r] : e->rod.T[i * model->s + r];
     for (size_t i = 0; i < model->nodes; i++)
-      rod->sway[i] = span->tension ? span->tension[zp_lanes(model) + i * model->s + r] : e->sway[i * model->s + r];
+      rod->sway[i] =
+          span->tension ? span->tension[zp_lanes(model) + i * model->s + r] : rod->joint[i].moment[ZP_SPACE_SWAY];
     memset(e->space_K, 0, WIDE * unknowns * sizeof *e->space_K);
     zp_space_stiffness(&model->space[r], rod, e->space_K);
     for (size_t i = 0; i < unknowns; i++)
-      e->space_coordinate[i] = coordinate_of(model, r, i);
+      e->space_coordinate[i] =
+          zp_coordinate_of(model->count, i / ZP_SPACE_OF_NODE * model->s + r, i % ZP_SPACE_OF_NODE);
     zp_assemble_chain(assembly, unknowns, e->space_coordinate, WIDE, e->space_K, K);
   }
 }
@@ -108,7 +94,7 @@ static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row
     ZpSpaceRod *rod = &e->space[r];
     double axial = 0;
     place(model, now->end, r, rod);
-    tell_edges(model, r, rod, e);
+    tell_tensions(model, r, rod, e);
     for (size_t i = 0; i + 1 < model->nodes; i++) {
       const double T = e->rod.T[i * model->s + r];
       axial += 0.5 * T * T / model->space[r].S;

@@ -106,9 +106,10 @@ typedef struct ZpTerm {
   ZpRules rules;
 } ZpTerm;
 
-/* In space: the moments of joints about the normal that a fraction of a change of all coordinates foresees, to first
- * order, N m => sway [stride]. After a force. */
-void zp_space_predict(const ZpModel *model, const ZpEval *eval, double *moved, double fraction, double *sway);
+/* In space: the moments of joints about the normal, N m => sway [count], after a force; and those that a fraction of a
+ * change of all coordinates foresees, to first order. */
+void zp_space_take_sway(const ZpModel *model, const ZpEval *eval, double *sway);
+void zp_space_predict(const ZpModel *model, const ZpEval *eval, const double *moved, double fraction, double *sway);
 
 /* F += change of the forces by as much of ZpSpan.hung and ZpSpan.load. */
 void zp_weight_by_load(const ZpModel *model, double hung, double load, double *F);

@@ -73,37 +73,30 @@ static void add_beside(const ZpModel *model, const ZpSpan *span, const ZpEval *e
     zp_axis(model, F, c)[right] += first[c];
     zp_axis(model, F, c)[left] -= first[c];
   }
-  zp_axis(model, F, 3)[left] += first[3];
-}
-
-/* A coordinate of an edge: x, y, z of its left node and of its right one, then its angle; the direction of its
- * derivatives that it is, and its sign there. */
-enum { OF_ENDS = 7 };
-typedef struct EdgeWay {
-  size_t coordinate, way;
-  double sign;
-} EdgeWay;
-
-static EdgeWay way_of(const ZpModel *model, size_t k) {
-  const size_t way = k == OF_ENDS - 1 ? 3 : k % 3, node = left_of_last(model) + (k >= 3 && way < 3 ? model->s : 0);
-  return (EdgeWay){way < 2 ? zp_x_of(node) + way : zp_z_of(model->count, node) + way - 2, way, k < 3 ? -1 : 1};
+  zp_axis(model, F, ZP_AXIS_ROLL)[left] += first[ZP_AXIS_ROLL];
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
-  double first[ZP_SPACE_OF_EDGE], second[ZP_SPACE_OF_EDGE][ZP_SPACE_OF_EDGE];
+  enum { OF_ENDS = 7 }; /* x, y, z of the edge's left node and of its right one, then its angle */
+  double first[ZP_SPACE_OF_EDGE], second[ZP_SPACE_OF_EDGE][ZP_SPACE_OF_EDGE], value[OF_ENDS * OF_ENDS] = {0};
+  size_t coordinate[OF_ENDS];
   if (!turns_end(model)) return;
   load_beside(model, span, e, first, second);
-  for (size_t k = 0; k < OF_ENDS; k++)
-    for (size_t m = 0; m <= k; m++) {
-      const EdgeWay one = way_of(model, k), other = way_of(model, m);
-      zp_assemble_pair(assembly, one.coordinate, other.coordinate, -one.sign * other.sign * second[one.way][other.way],
-                       K);
+  for (size_t k = 0; k < OF_ENDS; k++) {
+    const size_t axis = k < OF_ENDS - 1 ? k % 3 : ZP_AXIS_ROLL, right = k / 3 == 1;
+    coordinate[k] = zp_coordinate_of(model->count, left_of_last(model) + right * model->s, axis);
+    for (size_t m = k; m < OF_ENDS; m++) {
+      const double sign = (k < 3) == (m < 3) ? 1 : -1; /* the edge goes from the left to the right */
+      value[OF_ENDS * k + m - k] = -sign * second[axis][m < OF_ENDS - 1 ? m % 3 : ZP_AXIS_ROLL];
     }
+  }
+  zp_assemble_chain(assembly, OF_ENDS, coordinate, OF_ENDS, value, K);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   ZpForces to = zp_forces(model, F);
-  if (zp_is_in_space(model)) add(zp_lanes(model), span->share * model->fall[2], model->weight, zp_axis(model, F, 2));
+  if (zp_is_in_space(model))
+    add(zp_lanes(model), span->share * model->fall[2], model->weight, zp_axis(model, F, ZP_AXIS_Z));
   if (turns_end(model)) add_beside(model, span, e, F);
   if (model->fall[0] != 0) add(zp_lanes(model), span->share * model->fall[0], model->weight, to.x);
   add(zp_lanes(model), span->share * model->fall[1], model->weight, to.y);
@@ -174,7 +167,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
     row[0] -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
   for (size_t j = 0; zp_is_in_space(model) && j < model->count; j++)
-    row[0] -= model->weight[j] * model->fall[2] * zp_sides(model, now->end)[j];
+    row[0] -= model->weight[j] * model->fall[2] * zp_read_axis(model, now->end, ZP_AXIS_Z)[j];
   if (turns_end(model)) row[0] -= work_beside(model, now, e);
   row[0] -= constant_of(model) * zp_load_down(model, zp_nodes(model, now->end));
   row[0] -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
